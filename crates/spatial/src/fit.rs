@@ -10,7 +10,7 @@ use crate::problem::{Problem, Unknowns};
 const STEPS_MAX: usize = 150;
 
 /// A step that lowers the cost by less than this part of it, and this much, was the last one.
-const SETTLED: f64 = 1e-8;
+const SETTLED: f64 = 1e-9;
 
 /// Likewise, of a search that another one goes on from, and its steps at most.
 const NEARLY_SETTLED: f64 = 1e-2;
@@ -43,6 +43,17 @@ impl Fit {
         deviations: &Deviations,
     ) -> Result<Self, SpatialError> {
         Self::of(problem, start, deviations, Effort::Full)
+    }
+
+    /// From here on with other lines or levels. Where this search has not converged, that one has not.
+    pub(crate) fn on(
+        self,
+        problem: &Problem,
+        deviations: &Deviations,
+    ) -> Result<Self, SpatialError> {
+        let mut own = Self::from(problem, self.unknowns, deviations)?;
+        own.has_converged &= self.has_converged;
+        Ok(own)
     }
 
     /// From these unknowns downhill.

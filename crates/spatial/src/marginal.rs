@@ -157,7 +157,7 @@ impl Problem {
 fn reductions(problem: &Problem) -> Result<[Reduction; 2], SpatialError> {
     let of = |n: usize| {
         let reduction = problem.sides[n].reduction();
-        reduction.map_err(|source| SpatialError::of_side(n, source))
+        reduction.map_err(SpatialError::from)
     };
     Ok([of(0)?, of(1)?])
 }
@@ -174,7 +174,7 @@ impl<'p> Marginal<'p> {
         Ok(Self {
             problem,
             grid: Grid::new(problem.weights(level)),
-            patterns: Patterns::of(&problem.model),
+            patterns: Patterns::of(problem),
             noisy,
             measured: Self::reduced(problem, &reductions),
             reductions,
@@ -269,7 +269,7 @@ impl<'p> Marginal<'p> {
     /// (F + λ E)⁻¹ g with the least λ that bounds the step of the stiffness, E by what couples two motions at most.
     fn step(&self, unknowns: &Unknowns, normal: &Normal) -> Result<DVector<f64>, SpatialError> {
         let expected = self.problem.expected(unknowns)?;
-        let stiffness = self.problem.model.count();
+        let stiffness = self.problem.joint_count() / 2;
         let mut damping = 0.0;
         loop {
             let mut information = normal.information.clone();
@@ -303,7 +303,8 @@ impl<'p> Marginal<'p> {
             let mut followed = Vec::new();
             for line in lines {
                 let found = self.at_line(&assembled, line, &hidden[line])?;
-                normal.add_line(self.problem.omega(line), &found.products, &found.slopes);
+                let omega = self.problem.omega(line);
+                normal.add_line(omega, &self.patterns, &found.products, &found.slopes);
                 normal.cost += found.squares;
                 followed.push(found.hidden);
             }
@@ -328,7 +329,7 @@ impl<'p> Marginal<'p> {
         let functions = [0, 1].map(|n| self.reductions[n].expanded(&hidden[n]));
         let found = assembled.line_of(line, functions.each_ref())?;
         let (a, b) = (&found.by_joint_loads, &found.joint_motions);
-        let (a_d, d_b) = (a * found.dynamic, found.dynamic * b);
+        let (a_d, d_b) = (a * &found.dynamic, &found.dynamic * b);
         let skips = self.problem.skips();
         let mut groups = Vec::new();
         for own in &self.noisy {
@@ -352,7 +353,7 @@ impl<'p> Marginal<'p> {
             of_interface -= &d_b * sign;
             groups.push(Group { left, right });
         }
-        groups.push(found.dyads());
+        groups.extend(found.dyads(self.problem));
         Ok((found, groups))
     }
 

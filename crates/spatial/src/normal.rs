@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use bolted_joint_space::Parametrisation;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
 use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
+use crate::links::Sought;
 use crate::parallel::over_lines;
 use crate::problem::{Problem, Unknowns};
 
@@ -68,7 +68,7 @@ impl Normal {
     ) -> Result<Self, SpatialError> {
         let assembled = Assembled::new(problem, unknowns)?;
         let grid = Grid::new(problem.weights(deviations));
-        let patterns = Patterns::of(&problem.model);
+        let patterns = Patterns::of(problem);
         let parts = over_lines(problem.frequency_hz.len(), |lines| {
             match problem.error_count() {
                 0 => of_joint(problem, &assembled, &grid, &patterns, deviations, lines),
@@ -121,11 +121,11 @@ fn of_joint(
         for ((one, function), deviation) in all.zip(deviations) {
             normal.cost += 2.0 * (one.values[line] - function).norm_sqr() / (deviation * deviation);
         }
-        let groups = [found.dyads()];
+        let groups = found.dyads(problem);
         // ∂Y_C = −a ∂D b
         let products = patterns.products(&information(grid, &groups));
         let slopes = patterns.slopes(&descent(grid, &groups, &errors));
-        normal.add_line(problem.omega(line), &products, &slopes);
+        normal.add_line(problem.omega(line), patterns, &products, &slopes);
     }
     Ok(normal)
 }
@@ -135,21 +135,22 @@ impl Normal {
     pub(crate) fn add_line(
         &mut self,
         omega: f64,
+        patterns: &Patterns,
         products: &DMatrix<Complex64>,
         slopes: &DVector<Complex64>,
     ) {
-        let count = slopes.len();
-        for k in 0..count {
-            for l in 0..count {
+        let places = &patterns.unknowns;
+        for (k, &[stiffness, damping]) in places.iter().enumerate() {
+            for (l, &[other, of_other]) in places.iter().enumerate() {
                 let product = 2.0 * products[(k, l)];
-                self.information[(k, l)] += product.re;
-                self.information[(k, count + l)] -= omega * product.im;
-                self.information[(count + k, l)] += omega * product.im;
-                self.information[(count + k, count + l)] += omega * omega * product.re;
+                self.information[(stiffness, other)] += product.re;
+                self.information[(stiffness, of_other)] -= omega * product.im;
+                self.information[(damping, other)] += omega * product.im;
+                self.information[(damping, of_other)] += omega * omega * product.re;
             }
             let slope = 2.0 * slopes[k];
-            self.descent[k] -= slope.re;
-            self.descent[count + k] -= omega * slope.im;
+            self.descent[stiffness] -= slope.re;
+            self.descent[damping] -= omega * slope.im;
         }
     }
 }
@@ -189,12 +190,16 @@ fn of_all(
 }
 
 impl Line {
-    /// a and b, the dyads of every change of the joint.
-    pub(crate) fn dyads(&self) -> Group {
-        Group {
-            left: self.by_joint_loads.clone(),
-            right: self.joint_motions.clone(),
-        }
+    /// a and b, the dyads of every change of the joints that are sought.
+    pub(crate) fn dyads(&self, problem: &Problem) -> Vec<Group> {
+        let of = |joint: &Sought<'_>| Group {
+            left: self
+                .by_joint_loads
+                .columns_range(joint.motions())
+                .into_owned(),
+            right: self.joint_motions.rows_range(joint.motions()).into_owned(),
+        };
+        problem.links.sought().iter().map(of).collect()
     }
 }
 
@@ -207,33 +212,42 @@ pub(crate) fn residuals(problem: &Problem, line: usize, found: &Line) -> DMatrix
     errors
 }
 
-/// ∂K/∂k of each unknown, as places and factors of its 36 entries.
-pub(crate) struct Patterns(Vec<Vec<(usize, f64)>>);
+/// ∂K/∂k of each unknown, as places and factors of its joint's 36 entries.
+pub(crate) struct Patterns {
+    entries: Vec<Vec<(usize, f64)>>,
+    /// Where the unknown of stiffness and that of damping stand.
+    unknowns: Vec<[usize; 2]>,
+}
 
 impl Patterns {
-    pub(crate) fn of(model: &Parametrisation) -> Self {
-        let entries = |basis: &nalgebra::Matrix6<f64>| {
-            (0..36)
-                .map(|place| (place, basis[(place / 6, place % 6)]))
-                .filter(|(_, factor)| *factor != 0.0)
-                .collect()
-        };
-        Self(model.bases().iter().map(entries).collect())
+    pub(crate) fn of(problem: &Problem) -> Self {
+        let (mut entries, mut unknowns) = (Vec::new(), Vec::new());
+        for (number, joint) in problem.links.sought().iter().enumerate() {
+            let count = joint.model.count();
+            for (n, basis) in joint.model.bases().iter().enumerate() {
+                let own = (0..36)
+                    .map(|place| (36 * number + place, basis[(place / 6, place % 6)]))
+                    .filter(|(_, factor)| *factor != 0.0);
+                entries.push(own.collect());
+                unknowns.push([joint.first + n, joint.first + count + n]);
+            }
+        }
+        Self { entries, unknowns }
     }
 
     /// Eᵀ M E of sums over the 36 entries.
     pub(crate) fn products(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
         let half = self.columns(sums);
-        DMatrix::from_fn(self.0.len(), self.0.len(), |k, l| {
-            let own = self.0[k].iter();
+        DMatrix::from_fn(self.entries.len(), self.entries.len(), |k, l| {
+            let own = self.entries[k].iter();
             own.map(|(place, factor)| *factor * half[(*place, l)]).sum()
         })
     }
 
     /// M E.
     pub(crate) fn columns(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        DMatrix::from_fn(sums.nrows(), self.0.len(), |row, l| {
-            let own = self.0[l].iter();
+        DMatrix::from_fn(sums.nrows(), self.entries.len(), |row, l| {
+            let own = self.entries[l].iter();
             own.map(|(place, factor)| *factor * sums[(row, *place)])
                 .sum()
         })
@@ -245,19 +259,23 @@ impl Patterns {
             let own = entries.iter();
             own.map(|(place, factor)| *factor * sums[*place]).sum()
         };
-        DVector::from_iterator(self.0.len(), self.0.iter().map(of))
+        DVector::from_iterator(self.entries.len(), self.entries.iter().map(of))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::problem;
+    use crate::samples::{chain, problem};
 
     /// The sums of dyads against the table of derivatives.
     #[test]
     fn dyads_sum_up_to_the_normal_equations_of_the_table() {
-        let mut problem = problem();
+        compare(problem());
+        compare(chain());
+    }
+
+    fn compare(mut problem: Problem) {
         let mut seed = 4;
         for one in &mut problem.observed {
             for value in &mut one.values {

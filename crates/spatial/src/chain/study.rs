@@ -7,13 +7,12 @@ use bolted_joint_joint::InputFile;
 use bolted_joint_study::{Method, StudyError, StudyText, input_file};
 use nalgebra::Matrix6;
 
-use super::links::{Links, Numbers};
 use super::part::{Part, Source, file_of, joined};
 use super::plan::candidates::Candidate;
-use super::problem::{Observed, Problem};
 use super::response::Scatter;
-use super::side::Side;
-use crate::problem::Level;
+use crate::links::{Links, Numbers};
+use crate::problem::{Level, Observed, Problem};
+use crate::side::Side;
 use crate::study::{Reader, model_name};
 use crate::tables::StudyFile;
 
@@ -171,7 +170,7 @@ impl ChainStudy {
             level,
             text: study.clone(),
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, has_places(&sides))?,
+                tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
                 frequency_hz,
                 observed: Vec::new(),
@@ -186,40 +185,10 @@ impl ChainStudy {
         })
     }
 
-    /// What was measured of the assembly, between rows and columns of both sides with their interfaces.
+    /// What was measured of the assembly.
     pub(crate) fn observed(&self) -> Result<Vec<Observed>, StudyError> {
-        let [a, b] = &self.problem.sides;
-        let places = |first: &[Dof], skip: usize, second: &[Dof]| -> Vec<(usize, Dof)> {
-            let own = first.iter().copied().enumerate();
-            let other = second.iter().copied().enumerate();
-            own.chain(other.map(|(n, dof)| (skip + n, dof))).collect()
-        };
-        let rows = places(&a.responses, a.rows(), &b.responses);
-        let columns = places(&a.references, a.columns(), &b.references);
-        let mut observed = Vec::new();
-        for &(row, response) in &rows {
-            for &(column, reference) in &columns {
-                let found = self
-                    .assembly
-                    .as_ref()
-                    .map(|all| all.receptance(response, reference));
-                // the transposed function is another datum only where it was measured
-                let Some(Ok(function)) = found else { continue };
-                if !function.is_reciprocal() {
-                    observed.push(Observed {
-                        at: [row, column],
-                        values: function.values().to_vec(),
-                    });
-                }
-            }
-        }
-        self.text.ensure(
-            !observed.is_empty(),
-            "assembly.frf",
-            "no function between DOFs of the parts",
-            "functions between sensors, impacts, responses and references of the parts; points have one number in all files",
-        )?;
-        Ok(observed)
+        let reader = Reader { study: &self.text };
+        reader.observed(&self.problem.sides, self.assembly.as_ref())
     }
 
     /// How many joints are sought.
@@ -227,11 +196,6 @@ impl ChainStudy {
     pub fn sought(&self) -> usize {
         self.problem.links.sought().len()
     }
-}
-
-/// Whether anything about a set-up can be wrong.
-fn has_places(sides: &[Side; 2]) -> bool {
-    sides.iter().any(|side| !side.parameters().is_empty())
 }
 
 /// How many joints of a study are sought, and not known.

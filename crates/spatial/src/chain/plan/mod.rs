@@ -9,19 +9,18 @@ mod reason;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::assembled::Assembled;
 use crate::chain::apart::{Apart, apart};
-use crate::chain::assembled::Assembled;
-use crate::chain::links::{Links, is_determined};
-use crate::chain::normal::Normal;
 use crate::chain::part::Part;
-use crate::chain::problem::{Observed, Problem, Unknowns};
-use crate::chain::side::{Interface, MOTIONS, Side};
-use crate::chain::spread::Spread;
 use crate::chain::study::{ChainStudy, sides};
 use crate::error::SpatialError;
 use crate::fit::covariance;
-use crate::normal::Deviations;
+use crate::links::{Links, is_determined};
+use crate::normal::{Deviations, Normal};
 use crate::problem::Level;
+use crate::problem::{Observed, Problem, Unknowns};
+use crate::side::{Interface, MOTIONS, Side};
+use crate::spread::Spread;
 use crate::together::LINES_MAX;
 use candidates::{Candidate, proposed};
 pub use reason::Reason;
@@ -252,8 +251,8 @@ impl ChainStudy {
             let joint = if is_far || part == 0 { part } else { part - 1 };
             links.0.get(joint).map_or(0.0, |link| link.length_m)
         };
-        proposed(parts, &length_m).map_err(|source| SpatialError::VirtualPoint {
-            side: "candidates",
+        proposed(parts, &length_m).map_err(|source| SpatialError::Interface {
+            name: "candidates".to_owned(),
             source,
         })
     }
@@ -292,8 +291,8 @@ impl Test {
             let assembled = Assembled::new(&problem, &truth)?;
             let lines = 0..problem.frequency_hz.len();
             lines
-                .map(|line| assembled.functions(line))
-                .collect::<Result<Vec<_>, _>>()?
+                .map(|line| Ok(assembled.line(line)?.functions))
+                .collect::<Result<Vec<_>, SpatialError>>()?
         };
         for (n, one) in problem.observed.iter_mut().enumerate() {
             one.values = computed.iter().map(|functions| functions[n]).collect();
@@ -429,11 +428,11 @@ impl Test {
         let assembled = Assembled::new(problem, &self.truth)?;
         let mut sums = [(); 2].map(|()| vec![0.0; problem.motions()]);
         for line in 0..problem.frequency_hz.len() {
-            let whole = assembled.whole(line)?;
+            let found = assembled.line(line)?;
             for &[o, i] in &self.places {
                 for motion in 0..problem.motions() {
-                    sums[0][motion] += whole.by_joint_loads()[(o, motion)].norm_sqr();
-                    sums[1][motion] += whole.joint_motions()[(motion, i)].norm_sqr();
+                    sums[0][motion] += found.by_joint_loads[(o, motion)].norm_sqr();
+                    sums[1][motion] += found.joint_motions[(motion, i)].norm_sqr();
                 }
             }
         }
@@ -522,7 +521,17 @@ fn observed(
     let places = |which: usize| -> Result<Vec<usize>, SpatialError> {
         let mut all = Vec::new();
         let mut found = Vec::new();
-        for (side, skip) in [(a, 0), (b, if which == 0 { a.rows() } else { a.columns() })] {
+        for (side, skip) in [
+            (a, 0),
+            (
+                b,
+                if which == 0 {
+                    a.responses.len()
+                } else {
+                    a.references.len()
+                },
+            ),
+        ] {
             let dofs = if which == 0 {
                 &side.responses
             } else {

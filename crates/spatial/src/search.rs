@@ -13,11 +13,11 @@ pub(crate) const SEARCHED: usize = 60;
 const AS_LOW: f64 = 1e-6;
 
 /// Standard deviations of χ² up to which chance explains it.
-const BY_CHANCE: f64 = 4.0;
+const BY_CHANCE: f64 = 3.0;
 
 /// The lowest of the searches, how many starts were tried and how many came as low. The others are not tried after one that noise
-/// explains, where its level is stated, or, where it is not, after two that agree. The lowest has not converged where neither
-/// speaks for it: it may be another minimum.
+/// explains, where its level is stated, or, where it is not, after two that agree. Where noise does not explain the lowest, most
+/// of the starts have to lead there: it may be another minimum.
 pub(crate) fn searched(
     problem: &Problem,
     level: &Deviations,
@@ -40,7 +40,7 @@ pub(crate) fn searched(
             above if above >= -as_low => agreeing + 1,
             _ => 1,
         };
-        is_explained |= is_stated && fit.cost < explained;
+        is_explained |= is_stated && fit.has_converged && fit.cost < explained;
         if fit.cost < lowest {
             best = Some(fit);
         }
@@ -49,6 +49,9 @@ pub(crate) fn searched(
         }
     }
     let mut best = best.ok_or(SpatialError::NoStart)?;
-    best.has_converged &= is_explained || agreeing > 1;
+    best.has_converged &= match is_stated {
+        true => is_explained || 2 * agreeing > tried,
+        false => agreeing > 1,
+    };
     Ok((best, [tried, agreeing]))
 }

@@ -26,7 +26,7 @@ const PARTS: [f64; 5] = [1.0, 0.1, 10.0, 0.01, 100.0];
 const BESIDE: [f64; 5] = [1.0, 1.5, 0.7, 0.5, 0.3];
 
 /// Rounds in which the weights of the loads follow the joints.
-const ROUNDS: usize = 10;
+const ROUNDS: usize = 20;
 
 /// Loss factor of a start.
 const LOSS: f64 = 0.02;
@@ -34,29 +34,43 @@ const LOSS: f64 = 0.02;
 /// Singular values below this part of the largest are none.
 const RANK: f64 = 1e-8;
 
-/// Starts, the likely ones first.
-pub(crate) fn starts(problem: &Problem, level: &Deviations) -> Result<Vec<Unknowns>, SpatialError> {
+/// Parts of the lines whose loads and motions are balanced apart: every second one, every third one.
+const PARTS_OF_LINES: [usize; 2] = [2, 3];
+
+/// Starts, the likely ones first; each is made when it is asked for.
+pub(crate) fn starts(
+    problem: &Problem,
+    level: &Deviations,
+) -> Result<impl Iterator<Item = Unknowns> + use<>, SpatialError> {
     let all = problem.frequency_hz.len();
     let looked_at: Vec<usize> = (0..all).step_by(all.div_ceil(LINES).max(1)).collect();
-    let problem = &problem.with_lines(&looked_at);
-    let assembled = Assembled::without_sought(problem)?;
-    let lines = 0..looked_at.len();
-    let open: Vec<Open> = lines
-        .map(|line| assembled.open(line))
-        .collect::<Result<_, _>>()?;
-    let mut starts = Vec::new();
-    if let Some(loads) = Loads::of(problem, &open, level) {
-        let line_by_line = loads.line_by_line(problem);
+    let problem = problem.with_lines(&looked_at);
+    let open: Vec<Open> = {
+        let assembled = Assembled::without_sought(&problem)?;
+        let lines = 0..looked_at.len();
+        lines
+            .map(|line| assembled.open(line))
+            .collect::<Result<_, _>>()?
+    };
+    let mut ways = Vec::new();
+    let loads = Loads::of(&problem, &open, level);
+    if let Some(loads) = &loads {
+        let lines = looked_at.len();
+        let line_by_line = loads.line_by_line(&problem);
         let nothing = Some(vec![[Matrix6::zeros(); 2]; problem.links.sought().len()]);
-        for own in [&line_by_line, &nothing].into_iter().flatten() {
-            if let Some(start) = of_matrices(problem, own)? {
-                starts.extend(loads.balanced(problem, start)?);
-            }
+        for from in [&line_by_line, &nothing].into_iter().flatten() {
+            ways.push(Way::Balanced(from.clone(), (0..lines).collect()));
         }
-        for part in BESIDE {
-            if let Some(own) = &line_by_line {
-                let own: Vec<_> = own.iter().map(|own| own.map(|own| part * own)).collect();
-                starts.extend(of_matrices(problem, &own)?);
+        if let Some(from) = &line_by_line {
+            for part in PARTS_OF_LINES {
+                for first in 0..part {
+                    let own = (first..lines).step_by(part).collect();
+                    ways.push(Way::Balanced(from.clone(), own));
+                }
+            }
+            for part in BESIDE {
+                let own = from.iter().map(|own| own.map(|own| part * own));
+                ways.push(Way::At(own.collect()));
             }
         }
     }
@@ -71,24 +85,32 @@ pub(crate) fn starts(problem: &Problem, level: &Deviations) -> Result<Vec<Unknow
             }));
             [stiffness, stiffness * (LOSS / middle)]
         };
-        let own: Vec<_> = (0..problem.links.sought().len()).map(of).collect();
-        if is_finite(&own) {
-            starts.extend(of_matrices(problem, &own)?);
-        }
+        ways.push(Way::At((0..problem.links.sought().len()).map(of).collect()));
     }
-    Ok(starts)
+    Ok(ways.into_iter().filter_map(move |way| match way {
+        Way::At(matrices) => of_matrices(&problem, &matrices),
+        Way::Balanced(from, lines) => {
+            let start = of_matrices(&problem, &from)?;
+            loads.as_ref()?.balanced(&problem, start, &lines)
+        }
+    }))
+}
+
+/// To a start.
+enum Way {
+    /// K and C of each joint.
+    At(Vec<[Matrix6<f64>; 2]>),
+    /// Loads and motions balanced at these lines, from such.
+    Balanced(Vec<[Matrix6<f64>; 2]>, Vec<usize>),
 }
 
 /// Unknowns nearest to K and C of each joint that is sought, without errors of the set-up.
-fn of_matrices(
-    problem: &Problem,
-    matrices: &[[Matrix6<f64>; 2]],
-) -> Result<Option<Unknowns>, SpatialError> {
+fn of_matrices(problem: &Problem, matrices: &[[Matrix6<f64>; 2]]) -> Option<Unknowns> {
     let mut all = DVector::zeros(problem.count());
-    let joints = problem.links.nearest(matrices)?;
+    let joints = problem.links.nearest(matrices).ok()?;
     all.rows_mut(0, joints.len()).copy_from(&joints);
     let is_finite = all.iter().all(|x: &f64| x.is_finite());
-    Ok(is_finite.then_some(Unknowns(all)))
+    is_finite.then_some(Unknowns(all))
 }
 
 /// Loads in the joints that are sought, and their motions, as the functions have them.
@@ -96,7 +118,11 @@ struct Loads {
     /// What the functions follow from.
     lines: Vec<OfLine>,
     /// How much each function counts; rows × columns, or the other way round.
-    grid: Grid,
+    weights: DMatrix<f64>,
+    /// Columns whose rows reach all motions.
+    usable: Vec<usize>,
+    /// What scales each motion: rotations as lengths.
+    scales: Vec<f64>,
     patterns: Patterns,
 }
 
@@ -151,14 +177,11 @@ impl Loads {
                 }
                 let change = turned(&change);
                 let mut loads = DMatrix::zeros(scales.len(), motions.ncols());
-                let mut inverse: Option<(&Vec<usize>, DMatrix<Complex64>)> = None;
                 for &column in &usable {
                     let own = &rows[column];
-                    if inverse.as_ref().is_none_or(|(rows, _)| *rows != own) {
-                        inverse = Some((own, pseudo_inverse(&by_loads, own, &weights, &scales)?));
-                    }
+                    let weights: Vec<f64> = own.iter().map(|&row| weights[(row, column)]).collect();
+                    let inverse = pseudo_inverse(&by_loads.select_rows(own), &weights, &scales)?;
                     let right = DVector::from_fn(own.len(), |n, _| change[(own[n], column)]);
-                    let (_, inverse) = inverse.as_ref()?;
                     loads.column_mut(column).copy_from(&(inverse * right));
                 }
                 let seen = turned(&open.seen);
@@ -174,22 +197,29 @@ impl Loads {
             }
             (usable.len() >= scales.len()).then(|| Self {
                 lines,
-                grid: Grid::new(weights),
+                weights,
+                usable,
+                scales,
                 patterns: Patterns::of(problem),
             })
         })
     }
 
-    /// K and C of each joint by the medians of D = f b⁺ over the lines; `None` where the motions do not determine it.
+    /// K and C of each joint by the medians of D(ω) = X (I − H X)⁻¹ over the lines, where f = X S Y; `None` where the motions do
+    /// not determine X.
     fn line_by_line(&self, problem: &Problem) -> Option<Vec<[Matrix6<f64>; 2]>> {
         let mut found: Vec<[DMatrix<f64>; 2]> = Vec::new();
         for (line, own) in self.lines.iter().enumerate() {
-            let svd = own.motions.clone().svd(true, true);
-            let inverse = svd
-                .pseudo_inverse(f64::MIN_POSITIVE)
-                .ok()
-                .filter(|inverse| inverse.iter().all(|x| x.is_finite()))?;
-            let d = &own.loads * inverse;
+            let open = (&own.motions + &own.seen * &own.loads).select_columns(&self.usable);
+            let loads = own.loads.select_columns(&self.usable);
+            // X (S Y) = f, column by column
+            let weights: Vec<f64> = (self.usable.iter())
+                .map(|&column| self.weights.column(column).mean())
+                .collect();
+            let inverse = pseudo_inverse(&open.transpose(), &weights, &self.scales)?;
+            let x = loads * inverse.transpose();
+            let unit = DMatrix::identity(x.nrows(), x.nrows());
+            let d = &x * (unit - &own.seen * &x).try_inverse()?;
             let d = (&d + d.transpose()) * Complex64::from(0.5);
             let omega = problem.omega(line);
             found.push([d.map(|x| x.re), d.map(|x| x.im / omega)]);
@@ -202,78 +232,62 @@ impl Loads {
         };
         let joints = 0..problem.links.sought().len();
         let matrices: Vec<_> = joints.map(|joint| [of(joint, 0), of(joint, 1)]).collect();
-        is_finite(&matrices).then_some(matrices)
+        let mut all = matrices.iter().flatten();
+        let is_finite = all.all(|matrix| matrix.iter().all(|x| x.is_finite()));
+        is_finite.then_some(matrices)
     }
 
-    /// K and C for which loads and motions balance over all lines, Σ w |T (f − D b)|² with T = Y Sᵀ (I + D H)⁻¹ of the round
+    /// K and C for which loads and motions balance over these lines, Σ w |T (f − D b)|² with T = Y Sᵀ (I + D H)⁻¹ of the round
     /// before: to first order, T is what an error of the balance does to the functions.
-    fn balanced(
-        &self,
-        problem: &Problem,
-        start: Unknowns,
-    ) -> Result<Option<Unknowns>, SpatialError> {
+    fn balanced(&self, problem: &Problem, start: Unknowns, lines: &[usize]) -> Option<Unknowns> {
         let mut unknowns = start;
         let joints = problem.joint_count();
+        let grid = Grid::new(self.weights.clone());
         for _ in 0..ROUNDS {
-            let values = problem.links.sought_matrices(unknowns.0.as_slice())?;
+            let values = (problem.links.sought_matrices(unknowns.0.as_slice())).ok()?;
             let mut normal = Normal::zeros(joints);
-            for (line, own) in self.lines.iter().enumerate() {
-                let omega = problem.omega(line);
+            for &line in lines {
+                let (own, omega) = (&self.lines[line], problem.omega(line));
                 let dynamic = values[0].zip_map(&values[1], |k, c| Complex64::new(k, omega * c));
                 let count = dynamic.nrows();
                 let opened = DMatrix::identity(count, count) + &dynamic * &own.seen;
-                let by_balance = opened.transpose().lu().solve(&own.by_loads.transpose());
-                let Some(by_balance) = by_balance.map(|own| own.transpose()) else {
-                    return Ok(None);
-                };
+                let by_balance = opened.transpose().lu().solve(&own.by_loads.transpose())?;
+                let by_balance = by_balance.transpose();
                 let group = |joint: usize| Group {
                     left: by_balance.columns(MOTIONS * joint, MOTIONS).into_owned(),
                     right: own.motions.rows(MOTIONS * joint, MOTIONS).into_owned(),
                 };
                 let groups: Vec<Group> = (0..count / MOTIONS).map(group).collect();
                 let errors = -(&by_balance * &own.loads);
-                let products = self.patterns.products(&information(&self.grid, &groups));
-                let slopes = self.patterns.slopes(&descent(&self.grid, &groups, &errors));
+                let products = self.patterns.products(&information(&grid, &groups));
+                let slopes = self.patterns.slopes(&descent(&grid, &groups, &errors));
                 normal.add_line(omega, &self.patterns, &products, &slopes);
             }
-            let Some(inverse) = covariance(&normal.information) else {
-                return Ok(None);
-            };
-            unknowns
-                .0
-                .rows_mut(0, joints)
-                .copy_from(&(inverse * &normal.descent));
+            let values = covariance(&normal.information)? * &normal.descent;
+            unknowns.0.rows_mut(0, joints).copy_from(&values);
         }
         let is_finite = unknowns.0.iter().all(|x| x.is_finite());
-        Ok(is_finite.then_some(unknowns))
+        is_finite.then_some(unknowns)
     }
 }
 
-/// (W A)⁺ W of some rows, each with its mean weight; `None` unless they reach all motions.
+/// (√W A)⁺ √W; `None` unless its rank is that of its columns.
 fn pseudo_inverse(
     matrix: &DMatrix<Complex64>,
-    rows: &[usize],
-    weights: &DMatrix<f64>,
+    weights: &[f64],
     scales: &[f64],
 ) -> Option<DMatrix<Complex64>> {
-    // as lengths: K = ℓ K′ ℓ
-    let weight = |row: usize| weights.row(rows[row]).mean().sqrt();
-    let weighted = DMatrix::from_fn(rows.len(), scales.len(), |n, m| {
-        matrix[(rows[n], m)] * (weight(n) * scales[m])
-    });
+    let (rows, columns) = matrix.shape();
+    let factor = |n: usize, m: usize| weights[n].sqrt() * scales[m];
+    let weighted = DMatrix::from_fn(rows, columns, |n, m| matrix[(n, m)] * factor(n, m));
     let svd = weighted.svd(true, true);
     if svd.singular_values.min() <= RANK * svd.singular_values.max() {
         return None;
     }
     let inverse = svd.pseudo_inverse(0.0).ok()?;
-    Some(DMatrix::from_fn(scales.len(), rows.len(), |m, n| {
-        inverse[(m, n)] * (weight(n) * scales[m])
+    Some(DMatrix::from_fn(columns, rows, |m, n| {
+        inverse[(m, n)] * factor(n, m)
     }))
-}
-
-fn is_finite(matrices: &[[Matrix6<f64>; 2]]) -> bool {
-    let mut all = matrices.iter().flatten();
-    all.all(|matrix| matrix.iter().all(|x| x.is_finite()))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

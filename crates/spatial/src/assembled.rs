@@ -4,7 +4,9 @@ use bolted_joint_space::{Coupled, SpaceError};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use crate::dyads::Group;
 use crate::error::SpatialError;
+use crate::patterns::{Patterns, Places};
 use crate::problem::{Problem, Unknowns, block_diagonal};
 use crate::side::Transformations;
 
@@ -184,42 +186,19 @@ impl<'p> Assembled<'p> {
         )?)
     }
 
-    /// Derivatives of the observed functions by each unknown: observed × unknowns.
-    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
-        let observed = &self.problem.observed;
-        let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
-        let j_omega = Complex64::new(0.0, self.problem.omega(line));
-        let (a, b) = (&at.by_joint_loads, &at.joint_motions);
-        for joint in self.problem.links.sought() {
-            let (first, count) = (joint.first, joint.model.count());
-            let own = a.columns_range(joint.motions());
-            let motions = b.rows_range(joint.motions());
-            for (n, basis) in joint.model.bases().iter().enumerate() {
-                // ∂Y_C = −a ∂D b
-                let left = own * basis.map(Complex64::from);
-                for (row, one) in observed.iter().enumerate() {
-                    let [o, i] = one.at;
-                    let terms = (0..basis.nrows()).map(|m| left[(o, m)] * motions[(m, i)]);
-                    let sum: Complex64 = terms.sum();
-                    derivatives[(row, first + n)] = -sum;
-                    derivatives[(row, first + count + n)] = -j_omega * sum;
-                }
-            }
+    /// What changes of the unknowns do to the functions: of each joint that is sought, then of the sensors and of the impacts of
+    /// each side, where their places may be wrong. [`Patterns`] says how the unknowns are made of them.
+    pub(crate) fn dyads(&self, line: usize, at: &Line) -> Vec<Group> {
+        let mut groups = at.dyads(self.problem);
+        if self.problem.tolerances.is_none() {
+            return groups;
         }
-        if self.problem.tolerances.is_some() {
-            self.by_errors(line, at, &mut derivatives);
-        }
-        derivatives
-    }
-
-    /// dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b, for each error of a set-up, which changes what the interface does alone: of
-    /// L and R its rows and columns count.
-    fn by_errors(&self, line: usize, at: &Line, derivatives: &mut DMatrix<Complex64>) {
-        let (a, b) = (&at.by_joint_loads, &at.joint_motions);
-        let (left, right) = (a * &at.dynamic, &at.dynamic * b);
-        let motions = left.ncols();
-        let observed = &self.problem.observed;
-        let mut column = self.problem.joint_count();
+        // dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b: each error of a set-up changes what the interface does alone, and of L and
+        // R its rows and columns count
+        let (left, right) = (
+            &at.by_joint_loads * &at.dynamic,
+            &at.dynamic * &at.joint_motions,
+        );
         let (mut first_row, mut first_column) = (0, 0);
         for (side, own) in self.transformations.iter().enumerate() {
             let sign = Complex64::from(if side == 0 { -1.0 } else { 1.0 });
@@ -230,34 +209,52 @@ impl<'p> Assembled<'p> {
             for j in 0..q {
                 by_columns[(j, first_column + j)] += 1.0;
             }
-            let y_r = functions * by_columns;
-            for change in &own.motions_changes {
-                let moved = change * &y_r;
-                for (row, one) in observed.iter().enumerate() {
-                    let [o, i] = one.at;
-                    let sum: Complex64 = (0..motions).map(|m| left[(o, m)] * moved[(m, i)]).sum();
-                    derivatives[(row, column)] = sign * sum;
-                }
-                column += 1;
-            }
+            groups.push(Group {
+                left: &left * sign,
+                right: functions * by_columns,
+            });
             // L Y likewise
             let mut by_rows = &left * &own.motions * sign;
             for r in 0..p {
                 by_rows[(first_row + r, r)] += 1.0;
             }
-            let l_y = by_rows * functions;
-            for change in &own.loads_changes {
-                let loaded = &l_y * change;
-                for (row, one) in observed.iter().enumerate() {
-                    let [o, i] = one.at;
-                    let sum: Complex64 = (0..motions).map(|m| loaded[(o, m)] * right[(m, i)]).sum();
-                    derivatives[(row, column)] = sign * sum;
-                }
-                column += 1;
-            }
+            groups.push(Group {
+                left: by_rows * functions,
+                right: &right * sign,
+            });
             first_row += p;
             first_column += q;
         }
+        groups
+    }
+
+    /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.
+    pub(crate) fn changes(&self) -> impl Iterator<Item = &[DMatrix<Complex64>]> {
+        let sides = self.transformations.iter();
+        sides.flat_map(|own| [&own.motions_changes[..], &own.loads_changes[..]])
+    }
+
+    /// Derivatives of the observed functions by each unknown: observed × unknowns.
+    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
+        let observed = &self.problem.observed;
+        let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
+        let j_omega = Complex64::new(0.0, self.problem.omega(line));
+        let groups = self.dyads(line, at);
+        let patterns = Patterns::of(self.problem, Some(self));
+        for (unknowns, pattern) in patterns.all() {
+            for (row, one) in observed.iter().enumerate() {
+                let sum = pattern.of(&groups, one.at);
+                match unknowns {
+                    // ∂Y_C = −a ∂D b
+                    Places::OfJoint([stiffness, damping]) => {
+                        derivatives[(row, stiffness)] = -sum;
+                        derivatives[(row, damping)] = -j_omega * sum;
+                    }
+                    Places::OfSetUp(place) => derivatives[(row, place)] = sum,
+                }
+            }
+        }
+        derivatives
     }
 }
 

@@ -123,9 +123,7 @@ impl SpatialStudy {
         let all = parts(rms, (part * part + a * a + b * b).sqrt());
         if problem.error_count() == 0 {
             let smoothed = problem.smoothed()?;
-            let first = starts(&smoothed.thinned(SEARCHED), &level)?
-                .into_iter()
-                .next();
+            let first = starts(&smoothed.thinned(SEARCHED), &level)?.next();
             let first = first.ok_or(SpatialError::NoStart)?;
             // the lines at which noise moves least, as far as the joint is known
             let mut few = smoothed.with_lines(&problem.steadiest(&first, &level, self.noise)?);

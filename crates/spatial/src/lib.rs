@@ -26,6 +26,7 @@ mod normal;
 mod numbers;
 mod parallel;
 mod passive;
+mod patterns;
 mod problem;
 mod reasons;
 #[cfg(test)]

@@ -15,8 +15,9 @@ use crate::assembled::Assembled;
 use crate::dyads::{Grid, Group, descent, information, squares};
 use crate::error::SpatialError;
 use crate::fit::covariance;
-use crate::normal::{Deviations, Normal, Patterns, residuals};
+use crate::normal::{Deviations, Normal, residuals};
 use crate::parallel::over_lines;
+use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
 use crate::search::SEARCHED;
 use crate::side::{MOTIONS, Reduction};
@@ -174,7 +175,7 @@ impl<'p> Marginal<'p> {
         Ok(Self {
             problem,
             grid: Grid::new(problem.weights(level)),
-            patterns: Patterns::of(problem),
+            patterns: Patterns::of(problem, None),
             noisy,
             measured: Self::reduced(problem, &reductions),
             reductions,

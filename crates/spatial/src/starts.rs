@@ -12,7 +12,8 @@ use crate::assembled::{Assembled, Open};
 use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
 use crate::fit::covariance;
-use crate::normal::{Deviations, Normal, Patterns};
+use crate::normal::{Deviations, Normal};
+use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
 use crate::side::MOTIONS;
 
@@ -200,7 +201,7 @@ impl Loads {
                 weights,
                 usable,
                 scales,
-                patterns: Patterns::of(problem),
+                patterns: Patterns::of(problem, None),
             })
         })
     }

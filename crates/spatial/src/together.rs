@@ -41,7 +41,6 @@ pub(crate) fn together(
 ) -> Result<(Fit, [usize; 2]), SpatialError> {
     let thin = problem.thinned(LINES);
     let mut starts: Vec<(f64, Unknowns)> = starts(&thin, level)?
-        .into_iter()
         .filter_map(|start| Some((cost(&thin, &start, level).ok()?, start)))
         .collect();
     starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));

@@ -10,7 +10,7 @@ use crate::problem::{Problem, Unknowns};
 const STEPS_MAX: usize = 150;
 
 /// A step that lowers the cost by less than this part of it, and this much, was the last one.
-const SETTLED: f64 = 1e-9;
+const SETTLED: f64 = 1e-8;
 
 /// Likewise, of a search that another one goes on from, and its steps at most.
 const NEARLY_SETTLED: f64 = 1e-2;

@@ -124,6 +124,21 @@ impl Problem {
         })
     }
 
+    /// What a test will tell of the joint whose functions are these, with noise of the substructures: the information, and how
+    /// many lines will take part.
+    pub(crate) fn told_beside_noise(
+        &self,
+        truth: &Unknowns,
+        level: &Deviations,
+        noise: [f64; 2],
+    ) -> Result<(Normal, usize), SpatialError> {
+        let kept = Marginal::of(self, level, noise)?.kept(truth)?;
+        let own = self.with_lines(&kept);
+        let marginal = Marginal::of(&own, level, noise)?;
+        let (normal, _) = marginal.normal(truth, &marginal.measured)?;
+        Ok((normal, kept.len()))
+    }
+
     /// The lines at which the substructures' noise moves the assembly's functions least: a half of all, and not too many.
     pub(crate) fn steadiest(
         &self,

@@ -68,19 +68,17 @@ impl SpatialStudy {
                 "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`",
             );
         };
-        let noise = reader.noise(&file.noise)?;
         let (sides, link) = chain.two_sides()?;
         let observed = reader.observed(&sides, Some(assembly))?;
         let frequency_hz = chain.problem.frequency_hz.clone();
-        let level = reader.level(&file.noise)?;
         Ok(Self {
             path: study.path().to_owned(),
             name: file.name,
             model: chain.models[0].clone(),
             notes: file.notes,
             files: chain.files,
-            level,
-            noise,
+            level: chain.level,
+            noise: chain.noise,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
@@ -117,7 +115,7 @@ impl Reader<'_> {
     }
 
     /// Noise of the substructures.
-    fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
+    pub(crate) fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
         let of = |key: &str, given: Option<f64>| {
             let Some(part) = given else {
                 return Ok(0.0);

@@ -33,6 +33,8 @@ pub struct ChainStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
+    /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
+    pub noise: [f64; 2],
     pub(crate) text: StudyText,
     pub(crate) parts: Vec<Part>,
     pub(crate) problem: Problem,
@@ -120,11 +122,13 @@ impl ChainStudy {
             links.push(link);
         }
         let level = reader.level(&file.noise)?;
-        // their noise takes part where two measured structures are joined by one joint
-        let is_plain = file.joint.len() == 1 && file.assembly.frf.is_some();
-        for (key, given) in [("noise.a", file.noise.a), ("noise.b", file.noise.b)] {
-            if let Some(part) = given.filter(|_| !is_plain) {
-                let expected = "none for chains and plans: they take the noise of the assembly's functions alone";
+        // their noise takes part where two structures are joined by one joint
+        let noise = reader.noise(&file.noise)?;
+        let is_chain = file.joint.len() > 1;
+        for (key, part) in [("noise.a", noise[0]), ("noise.b", noise[1])] {
+            if is_chain && part > 0.0 {
+                let expected =
+                    "none for chains: they take the noise of the assembly's functions alone";
                 return study.refuse(key, part, expected);
             }
         }
@@ -168,6 +172,7 @@ impl ChainStudy {
             notes: file.notes,
             files,
             level,
+            noise,
             text: study.clone(),
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides)?,

@@ -46,15 +46,19 @@ def test_the_plan_is_what_the_estimate_says_of_itself(run, tmp_path, budget):
         assert one["by_noise_alone"] == pytest.approx(other["by_noise_alone"], rel=0.02)
 
 
-def test_simulated_tests_scatter_as_planned(run, tmp_path):
-    """40 tests with noise, 42 unknowns, sensors and impacts elsewhere on finite elements. The pooled r.m.s. scatters by
-    1/√(80 · 42) if no unknowns go together, and by 1/√80 = 11 % if all do: 42 go together in some ten groups."""
+@pytest.mark.parametrize("noise, draws", [(1e-3, 40), (1e-2, 100)])
+def test_simulated_tests_scatter_as_planned(run, tmp_path, noise, draws):
+    """Tests with noise, 42 unknowns, sensors and impacts elsewhere on finite elements. The pooled r.m.s. of 40 tests scatters by
+    1/√(80 · 42) if no unknowns go together, and by 1/√80 = 11 % if all do: 42 go together in some ten groups. With 1 % of noise
+    the functions have other minima, where the joint is wrong by twenty deviations."""
     chain = Chain([(K, C)])
     lines, places = FREQUENCIES[::5], [100, 103, 201, 202]
+    alone = chain.receptances(lines)
+    chain.receptances = lambda _: alone
     expected = f"expected = {{ stiffness = {K.tolist()}, damping = {C.tolist()} }}"
     errors = []
-    for draw in range(40):
-        chain.write(tmp_path, lines, places, places, [FULL + "\nlength = 0.03\n" + expected], 1e-3, np.random.default_rng(500 + draw))
+    for draw in range(draws):
+        chain.write(tmp_path, lines, places, places, [FULL + "\nlength = 0.03\n" + expected], noise, np.random.default_rng(500 + draw))
         if draw == 0:
             text = (tmp_path / "study.toml").read_text()
             (tmp_path / "plan.toml").write_text(text.replace('frf = "assembly.npz"', ""))
@@ -62,6 +66,45 @@ def test_simulated_tests_scatter_as_planned(run, tmp_path):
         errors.append([(u["free"] - p["value"]) / p["standard_deviation"] for u, p in zip(found(run, tmp_path), plan)])
     assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(1, abs=0.1)
     assert abs(np.mean(errors)) < 0.1
+    assert np.abs(errors).max() < 6
+
+
+def test_simulated_tests_with_a_budget_scatter_as_planned(run, tmp_path):
+    """Noise of 1 %, sensors and impacts where the study does not say: 0.2 mm, 2 mrad and 0.2 % off. Ten numbers of a bolt: 30
+    tests scatter by about 1/√(60 · 5) = 6 %; 60 others by hand had 1.002."""
+    stiffness, damping = bolt(2e6, 5e6, 6e2, 9e2, 1e4)
+    rig = Rig(stiffness, damping, sensors=3, impacts=8)
+    lines, size = FREQUENCIES[::6], (2e-4, 2e-3, 2e-3)
+    budget = "budget = {{ position = {}, rotation = {}, gain = {} }}\n".format(*size)
+    plan_study(rig, tmp_path, lines, 'model = "bolt"', 0.01, stiffness, damping, budget)
+    plan = planned(run, tmp_path, "--add", "0")["unknowns"]
+    # the set-up is most of it
+    assert all(u["standard_deviation"] > 1.3 * u["by_noise_alone"] for u in plan[:5])
+    errors = []
+    for draw in range(30):
+        rng = np.random.default_rng(920 + draw)
+        rows = [rig.rows(side, (rng, *size)) for side in range(2)]
+        rig.write(tmp_path, lines, noise=0.01, rng=rng, rows=rows, model='model = "bolt"', more=budget)
+        errors.append([(u["free"] - p["value"]) / p["standard_deviation"] for u, p in zip(found(run, tmp_path), plan)])
+    assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(1, abs=0.15)
+
+
+def test_noise_of_the_substructures_takes_part_in_the_plan(run, tmp_path):
+    """All 42 deviations against those that the estimate states, with noise on everything; what moves too far is left out."""
+    soft, own = 0.02 * K, definite(2, 300.0)
+    rig = Rig(soft, own, sensors=3, impacts=9)
+    lines = np.linspace(60, 1800, 60)
+    plan_study(rig, tmp_path, lines, FULL, 1e-3, soft, own, EXACT)
+    without = planned(run, tmp_path, "--add", "0")
+    text = (tmp_path / "plan.toml").read_text()
+    (tmp_path / "plan.toml").write_text(text.replace("relative = 0.001", "relative = 0.001\na = 0.001\nb = 0.001"))
+    plan = planned(run, tmp_path, "--add", "0")
+    rig.write(tmp_path, lines, noise=1e-3, rng=np.random.default_rng(3), more=EXACT, of_sides=(1e-3, 1e-3))
+    for one, other in zip(plan["unknowns"], found(run, tmp_path)):
+        assert one["name"] == other["name"]
+        assert one["standard_deviation"] == pytest.approx(other["standard_deviation"], rel=0.05)
+    ratios = [a["standard_deviation"] / b["standard_deviation"] for a, b in zip(plan["unknowns"], without["unknowns"])]
+    assert np.median(ratios) > 1.5
 
 
 def test_functions_elsewhere_that_do_not_move_the_joint_leave_it_open(run, tmp_path):
@@ -116,6 +159,61 @@ def test_motions_that_nothing_reaches_are_named(run, tmp_path):
             assert reason == f"no motion: no impact moves the joint in {dof}, and no sensor sees it"
     # one impact along y is what tells most
     assert "Y" in plan["additions"][0]["what"] and "references" in plan["additions"][0]["what"]
+
+
+def test_the_best_one_is_chosen_by_the_determinant_and_then_the_next(run, tmp_path):
+    """ln det(I + J P Jᵀ) of every candidate, and of every one beside the best, from Jacobians by NumPy: functions elsewhere on two
+    frames, noise in parts of each r.m.s., and of each number nothing known but its size."""
+    chain = Chain([(K, C)])
+    lines, rows, columns = FREQUENCIES[::9], [103, 201], [103, 202]
+    expected = f"expected = {{ stiffness = {K.tolist()}, damping = {C.tolist()} }}"
+    chain.write(tmp_path, lines, rows, columns, [FULL + "\nlength = 0.03\n" + expected], 0.01, np.random.default_rng(1))
+    text = (tmp_path / "study.toml").read_text().replace('frf = "assembly.npz"', "")
+    (tmp_path / "plan.toml").write_text(text)
+    plan = planned(run, tmp_path, "--add", "3")
+
+    alone, together = chain.receptances(lines)
+    nodes = [node for part in range(2) for node in chain.nodes(part)]
+    everything = [f"{node}:+{axis}" for node in nodes for axis in ("X", "Y", "Z", "RX", "RY", "RZ")]
+    end = chain.starts[1]
+    S = np.zeros((6, len(everything)))
+    S[:, end - 6 : end], S[:, end : end + 6] = np.eye(6), -np.eye(6)
+    a, b = together @ S.T, S @ together
+    upper = list(zip(*np.triu_indices(6)))
+    bases = np.zeros((21, 6, 6))
+    for n, (i, j) in enumerate(upper):
+        bases[n, i, j] = bases[n, j, i] = 1
+    size = np.concatenate([[np.sqrt(m[i, i] * m[j, j]) for i, j in upper] for m in (K, C)])
+    omega = 2 * np.pi * lines
+
+    def information(responses, references):
+        o, i = ([everything.index(dof) for dof in dofs] for dofs in (responses, references))
+        jacobian = -np.einsum("lop,kpq,lqi->koil", a[:, o], bases, b[:, :, i])
+        jacobian = np.concatenate([jacobian, 1j * omega * jacobian]) * size[:, None, None, None]
+        sigma = 0.01 * np.sqrt(np.mean(np.abs(together[:, o][:, :, i]) ** 2, axis=0))
+        whitened = (jacobian / sigma[:, :, None]).reshape(42, -1)
+        return 2 * (whitened @ whitened.conj().T).real
+
+    def gain(now, then):
+        prior = np.eye(42)
+        return np.linalg.slogdet(prior + information(*then))[1] - np.linalg.slogdet(prior + information(*now))[1]
+
+    def with_it(now, what):
+        table, dof = what.split(": ")
+        responses, references = now
+        return (responses + [dof], references) if table.endswith("responses") else (responses, references + [dof])
+
+    now = ([f"{node}:+{axis}" for node in rows for axis in "XYZ"], [f"{node}:+{axis}" for node in columns for axis in "XYZ"])
+    assert len(plan["ranking"]) > 10
+    for one in plan["ranking"]:
+        assert one["gain"] == pytest.approx(gain(now, with_it(now, one["what"])), rel=1e-6)
+    left = [one["what"] for one in plan["ranking"]]
+    for chosen in plan["additions"]:
+        gains = {what: gain(now, with_it(now, what)) for what in left}
+        best = max(gains, key=gains.get)
+        assert chosen["what"] == best and chosen["gain"] == pytest.approx(gains[best], rel=1e-6)
+        now = with_it(now, best)
+        left.remove(best)
 
 
 def test_what_to_add_does_what_was_promised(run, tmp_path):

@@ -1,50 +1,62 @@
-//! The functions that an assembly with a joint would have, and how they change with every unknown.
+//! The functions that an assembly with joints would have, and how they change with every unknown.
 
-use nalgebra::{DMatrix, Matrix6};
+use bolted_joint_space::{Coupled, SpaceError};
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use crate::dyads::Group;
 use crate::error::SpatialError;
-use crate::problem::{Problem, Unknowns};
-use crate::side::{MOTIONS, Transformations};
+use crate::patterns::{Patterns, Places};
+use crate::problem::{Problem, Unknowns, block_diagonal};
+use crate::side::Transformations;
 
 /// The model at one set of unknowns.
 pub(crate) struct Assembled<'p> {
     problem: &'p Problem,
     transformations: [Transformations; 2],
-    stiffness: Matrix6<f64>,
-    damping: Matrix6<f64>,
+    stiffness: DMatrix<f64>,
+    damping: DMatrix<f64>,
 }
 
-/// What the joint sees at one line, without a joint.
+/// What the joints see at one line, without any joint.
 pub(crate) struct Reach {
     /// Y Sᵀ, a row for each response of a and of b.
     pub(crate) by_loads: DMatrix<Complex64>,
     /// S Y, a column for each reference.
     pub(crate) motions: DMatrix<Complex64>,
     /// H = S Y Sᵀ.
-    pub(crate) seen: Matrix6<Complex64>,
+    pub(crate) seen: DMatrix<Complex64>,
 }
 
 /// The assembly at one line.
 pub(crate) struct Line {
     /// The observed functions.
     pub(crate) functions: Vec<Complex64>,
-    /// a = Y_C Sᵀ: motions by unit loads across the joint, a row for each response.
+    /// a = Y_C Sᵀ: motions by unit loads across the joints, a row for each response.
     pub(crate) by_joint_loads: DMatrix<Complex64>,
-    /// b = S Y_C: relative motions in the joint by unit loads, a column for each reference.
+    /// b = S Y_C: relative motions in the joints by unit loads, a column for each reference.
     pub(crate) joint_motions: DMatrix<Complex64>,
-    /// D = K + jωC.
-    pub(crate) dynamic: Matrix6<Complex64>,
+    /// D = K + jωC of all joints.
+    pub(crate) dynamic: DMatrix<Complex64>,
+}
+
+/// What an assembly without the joints that are sought has where they will be, at one line; those that are known are there.
+pub(crate) struct Open {
+    /// Y Sᵀ, a row for each response.
+    pub(crate) by_loads: DMatrix<Complex64>,
+    /// S Y, a column for each reference.
+    pub(crate) motions: DMatrix<Complex64>,
+    /// H = S Y Sᵀ: the receptance that the joints see.
+    pub(crate) seen: DMatrix<Complex64>,
+    /// The observed functions.
+    pub(crate) functions: Vec<Complex64>,
 }
 
 impl<'p> Assembled<'p> {
     pub(crate) fn new(problem: &'p Problem, unknowns: &Unknowns) -> Result<Self, SpatialError> {
         let [stiffness, damping] = problem.matrices(unknowns)?;
         let errors = problem.errors(unknowns);
-        let of = |side: usize| {
-            let transformations = problem.sides[side].transformations(&errors[side]);
-            transformations.map_err(|source| SpatialError::of_side(side, source))
-        };
+        let of = |side: usize| problem.sides[side].transformations(&errors[side]);
         Ok(Self {
             problem,
             transformations: [of(0)?, of(1)?],
@@ -53,12 +65,19 @@ impl<'p> Assembled<'p> {
         })
     }
 
+    /// The assembly without the joints that are sought.
+    pub(crate) fn without_sought(problem: &'p Problem) -> Result<Self, SpatialError> {
+        let none = Unknowns(DVector::zeros(problem.count()));
+        let mut own = Self::new(problem, &none)?;
+        [own.stiffness, own.damping] = problem.links.known();
+        Ok(own)
+    }
+
     /// D = K + jωC
-    fn dynamic(&self, line: usize) -> Matrix6<Complex64> {
+    fn dynamic(&self, line: usize) -> DMatrix<Complex64> {
         let omega = self.problem.omega(line);
-        Matrix6::from_fn(|i, j| {
-            Complex64::new(self.stiffness[(i, j)], omega * self.damping[(i, j)])
-        })
+        self.stiffness
+            .zip_map(&self.damping, |k, c| Complex64::new(k, omega * c))
     }
 
     fn measured(&self, line: usize) -> [&DMatrix<Complex64>; 2] {
@@ -79,12 +98,13 @@ impl<'p> Assembled<'p> {
             (by_loads, motions * functions[side], seen)
         });
         let [rows, columns] = self.problem.skips();
-        let mut by_loads = DMatrix::zeros(rows + b_loads.nrows(), MOTIONS);
+        let all = self.problem.motions();
+        let mut by_loads = DMatrix::zeros(rows + b_loads.nrows(), all);
         by_loads.rows_mut(0, rows).copy_from(&a_loads);
         by_loads
             .rows_mut(rows, b_loads.nrows())
             .copy_from(&-b_loads);
-        let mut motions = DMatrix::zeros(MOTIONS, columns + b_motions.ncols());
+        let mut motions = DMatrix::zeros(all, columns + b_motions.ncols());
         motions.columns_mut(0, columns).copy_from(&a_motions);
         motions
             .columns_mut(columns, b_motions.ncols())
@@ -92,7 +112,7 @@ impl<'p> Assembled<'p> {
         Reach {
             by_loads,
             motions,
-            seen: Matrix6::from_fn(|i, j| a[(i, j)] + b[(i, j)]),
+            seen: a + b,
         }
     }
 
@@ -113,27 +133,10 @@ impl<'p> Assembled<'p> {
             seen,
         } = self.reach_of(functions);
         let dynamic = self.dynamic(line);
-        // rotations as lengths: the equations are solved in numbers that are alike
-        let scale = |i: usize| if i < 3 { 1.0 } else { self.problem.length_m };
-        let h = Matrix6::from_fn(|i, j| seen[(i, j)] * scale(i) * scale(j));
-        let d = Matrix6::from_fn(|i, j| dynamic[(i, j)] / (scale(i) * scale(j)));
-        let unit = Matrix6::<Complex64>::identity();
-        let mut b = motions;
-        scale_rows(&mut b, scale);
-        let mut a = by_loads.transpose();
-        scale_rows(&mut a, scale);
-        let is_solved = (unit + h * d).lu().solve_mut(&mut b)
-            && (unit + d * h).transpose().lu().solve_mut(&mut a);
-        if !is_solved || !a.iter().chain(b.iter()).all(|number| number.is_finite()) {
-            return Err(bolted_joint_space::SpaceError::Resonance.into());
-        }
-        scale_rows(&mut a, |i| scale(i).recip());
-        scale_rows(&mut b, |i| scale(i).recip());
-        let loads: DMatrix<Complex64> = DMatrix::from_fn(MOTIONS, b.ncols(), |m, i| {
-            (0..MOTIONS)
-                .map(|n| dynamic[(m, n)] * b[(n, i)])
-                .sum::<Complex64>()
-        });
+        let joints = Joints::of(self.problem, &seen, &dynamic);
+        let b = joints.solved(&motions)?;
+        let a = joints.solved_transposed(&by_loads)?;
+        let loads = &dynamic * &b;
         let [rows, columns] = self.problem.skips();
         let observed = self.problem.observed.iter();
         let functions = observed
@@ -144,47 +147,58 @@ impl<'p> Assembled<'p> {
                     (false, false) => functions[1][(o - rows, i - columns)],
                     _ => Complex64::default(),
                 };
-                (0..MOTIONS).fold(alone, |sum, m| sum - by_loads[(o, m)] * loads[(m, i)])
+                (0..loads.nrows()).fold(alone, |sum, m| sum - by_loads[(o, m)] * loads[(m, i)])
             })
             .collect();
         Ok(Line {
             functions,
-            by_joint_loads: a.transpose(),
+            by_joint_loads: a,
             joint_motions: b,
             dynamic,
         })
     }
 
-    /// Derivatives of the observed functions by each unknown: observed × unknowns.
-    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
-        let observed = &self.problem.observed;
-        let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
-        let j_omega = Complex64::new(0.0, self.problem.omega(line));
-        let (a, b) = (&at.by_joint_loads, &at.joint_motions);
-        let count = self.problem.model.count();
-        for (n, basis) in self.problem.model.bases().iter().enumerate() {
-            // ∂Y_C = −a ∂D b
-            let left = a * basis.map(Complex64::from);
-            for (row, one) in observed.iter().enumerate() {
-                let [o, i] = one.at;
-                let sum: Complex64 = (0..MOTIONS).map(|m| left[(o, m)] * b[(m, i)]).sum();
-                derivatives[(row, n)] = -sum;
-                derivatives[(row, count + n)] = -j_omega * sum;
-            }
-        }
-        if self.problem.tolerances.is_some() {
-            self.by_errors(line, at, &mut derivatives);
-        }
-        derivatives
+    /// What the assembly has at the joints that are sought, with what this one has of joints.
+    pub(crate) fn open(&self, line: usize) -> Result<Open, SpatialError> {
+        let found = self.line(line)?;
+        let seen = self.reach(line).seen;
+        // S Y_C Sᵀ = (I + H D)⁻¹ H
+        let seen = Joints::of(self.problem, &seen, &found.dynamic).solved(&seen)?;
+        let sought = self.problem.links.sought();
+        let own: Vec<usize> = sought.iter().flat_map(|one| one.motions()).collect();
+        Ok(Open {
+            by_loads: found.by_joint_loads.select_columns(&own),
+            motions: found.joint_motions.select_rows(&own),
+            seen: seen.select_rows(&own).select_columns(&own),
+            functions: found.functions,
+        })
     }
 
-    /// dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b, for each error of a set-up, which changes what the interface does alone: of
-    /// L and R its rows and columns count.
-    fn by_errors(&self, line: usize, at: &Line, derivatives: &mut DMatrix<Complex64>) {
-        let (a, b) = (&at.by_joint_loads, &at.joint_motions);
-        let (left, right) = (a * at.dynamic, at.dynamic * b);
-        let observed = &self.problem.observed;
-        let mut column = self.problem.joint_count();
+    /// All functions of a line, and how the assembly moves in its joints.
+    pub(crate) fn whole(&self, line: usize) -> Result<Coupled, SpatialError> {
+        let [a, b] = self.measured(line);
+        let [motions, loads] = self.problem.selections(self.transformations.each_ref())?;
+        Ok(Coupled::between(
+            &block_diagonal([a, b]),
+            [&motions, &loads],
+            &self.dynamic(line),
+            self.problem.links.length_m(),
+        )?)
+    }
+
+    /// What changes of the unknowns do to the functions: of each joint that is sought, then of the sensors and of the impacts of
+    /// each side, where their places may be wrong. [`Patterns`] says how the unknowns are made of them.
+    pub(crate) fn dyads(&self, line: usize, at: &Line) -> Vec<Group> {
+        let mut groups = at.dyads(self.problem);
+        if self.problem.tolerances.is_none() {
+            return groups;
+        }
+        // dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b: each error of a set-up changes what the interface does alone, and of L and
+        // R its rows and columns count
+        let (left, right) = (
+            &at.by_joint_loads * &at.dynamic,
+            &at.dynamic * &at.joint_motions,
+        );
         let (mut first_row, mut first_column) = (0, 0);
         for (side, own) in self.transformations.iter().enumerate() {
             let sign = Complex64::from(if side == 0 { -1.0 } else { 1.0 });
@@ -195,67 +209,132 @@ impl<'p> Assembled<'p> {
             for j in 0..q {
                 by_columns[(j, first_column + j)] += 1.0;
             }
-            let y_r = functions * by_columns;
-            for change in &own.motions_changes {
-                let moved = change * &y_r;
-                for (row, one) in observed.iter().enumerate() {
-                    let [o, i] = one.at;
-                    let sum: Complex64 = (0..MOTIONS).map(|m| left[(o, m)] * moved[(m, i)]).sum();
-                    derivatives[(row, column)] = sign * sum;
-                }
-                column += 1;
-            }
+            groups.push(Group {
+                left: &left * sign,
+                right: functions * by_columns,
+            });
             // L Y likewise
             let mut by_rows = &left * &own.motions * sign;
             for r in 0..p {
                 by_rows[(first_row + r, r)] += 1.0;
             }
-            let l_y = by_rows * functions;
-            for change in &own.loads_changes {
-                let loaded = &l_y * change;
-                for (row, one) in observed.iter().enumerate() {
-                    let [o, i] = one.at;
-                    let sum: Complex64 = (0..MOTIONS).map(|m| loaded[(o, m)] * right[(m, i)]).sum();
-                    derivatives[(row, column)] = sign * sum;
-                }
-                column += 1;
-            }
+            groups.push(Group {
+                left: by_rows * functions,
+                right: &right * sign,
+            });
             first_row += p;
             first_column += q;
         }
+        groups
+    }
+
+    /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.
+    pub(crate) fn changes(&self) -> impl Iterator<Item = &[DMatrix<Complex64>]> {
+        let sides = self.transformations.iter();
+        sides.flat_map(|own| [&own.motions_changes[..], &own.loads_changes[..]])
+    }
+
+    /// Derivatives of the observed functions by each unknown: observed × unknowns.
+    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
+        let observed = &self.problem.observed;
+        let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
+        let j_omega = Complex64::new(0.0, self.problem.omega(line));
+        let groups = self.dyads(line, at);
+        let patterns = Patterns::of(self.problem, Some(self));
+        for (unknowns, pattern) in patterns.all() {
+            for (row, one) in observed.iter().enumerate() {
+                let sum = pattern.of(&groups, one.at);
+                match unknowns {
+                    // ∂Y_C = −a ∂D b
+                    Places::OfJoint([stiffness, damping]) => {
+                        derivatives[(row, stiffness)] = -sum;
+                        derivatives[(row, damping)] = -j_omega * sum;
+                    }
+                    Places::OfSetUp(place) => derivatives[(row, place)] = sum,
+                }
+            }
+        }
+        derivatives
     }
 }
 
-fn scale_rows(matrix: &mut DMatrix<Complex64>, scale: impl Fn(usize) -> f64) {
-    for (i, mut row) in matrix.row_iter_mut().enumerate() {
-        row *= Complex64::from(scale(i));
+/// I + H D, with rotations as lengths: the equations are solved in numbers that are alike.
+struct Joints {
+    scales: Vec<f64>,
+    by_motions: DMatrix<Complex64>,
+    by_loads: DMatrix<Complex64>,
+}
+
+impl Joints {
+    fn of(problem: &Problem, seen: &DMatrix<Complex64>, dynamic: &DMatrix<Complex64>) -> Self {
+        let scales = problem.links.scales();
+        let count = scales.len();
+        let of = |i: usize, j: usize| scales[i] * scales[j];
+        let h = DMatrix::from_fn(count, count, |i, j| seen[(i, j)] * of(i, j));
+        let d = DMatrix::from_fn(count, count, |i, j| dynamic[(i, j)] / of(i, j));
+        let unit = DMatrix::<Complex64>::identity(count, count);
+        Self {
+            by_motions: &unit + &h * &d,
+            by_loads: (unit + d * h).transpose(),
+            scales,
+        }
+    }
+
+    /// (I + H D)⁻¹ S Y
+    fn solved(&self, right: &DMatrix<Complex64>) -> Result<DMatrix<Complex64>, SpaceError> {
+        self.solution(&self.by_motions, right.clone())
+    }
+
+    /// Y Sᵀ (I + D H)⁻¹
+    fn solved_transposed(
+        &self,
+        left: &DMatrix<Complex64>,
+    ) -> Result<DMatrix<Complex64>, SpaceError> {
+        Ok(self.solution(&self.by_loads, left.transpose())?.transpose())
+    }
+
+    fn solution(
+        &self,
+        matrix: &DMatrix<Complex64>,
+        mut right: DMatrix<Complex64>,
+    ) -> Result<DMatrix<Complex64>, SpaceError> {
+        self.scale_rows(&mut right, |scale| scale);
+        let is_solved = matrix.clone().lu().solve_mut(&mut right);
+        if !is_solved || !right.iter().all(|number| number.is_finite()) {
+            return Err(SpaceError::Resonance);
+        }
+        self.scale_rows(&mut right, f64::recip);
+        Ok(right)
+    }
+
+    fn scale_rows(&self, matrix: &mut DMatrix<Complex64>, of: impl Fn(f64) -> f64) {
+        for (mut row, &scale) in matrix.row_iter_mut().zip(&self.scales) {
+            row *= Complex64::from(of(scale));
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::{problem, unknowns};
+    use crate::samples::{chain, problem, unknowns};
 
     /// Reference: central differences of the model's functions.
-    #[test]
-    fn derivatives_are_differences_by_every_unknown() {
-        let problem = problem();
-        let at = unknowns(&problem).0;
-        let count = problem.model.count();
-        let assembled = Assembled::new(&problem, &Unknowns(at.clone())).unwrap();
+    fn compare_with_differences(problem: &Problem) {
+        let at = unknowns(problem).0;
+        let assembled = Assembled::new(problem, &Unknowns(at.clone())).unwrap();
         let line = assembled.line(1).unwrap();
         let derivatives = assembled.derivatives(1, &line);
         let scale = line.functions.iter().map(|y| y.norm()).fold(0.0, f64::max);
         for unknown in 0..problem.count() {
-            let step = match unknown < 2 * count {
+            let step = match unknown < problem.joint_count() {
                 true => 1e-4 * at[unknown].abs().max(1.0),
                 false => 1e-6,
             };
             let [above, below] = [step, -step].map(|step| {
                 let mut moved = at.clone();
                 moved[unknown] += step;
-                let assembled = Assembled::new(&problem, &Unknowns(moved)).unwrap();
+                let assembled = Assembled::new(problem, &Unknowns(moved)).unwrap();
                 assembled.line(1).unwrap().functions
             });
             let size = derivatives
@@ -272,6 +351,31 @@ mod tests {
                     derivatives[(row, unknown)]
                 );
             }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_differences_by_every_unknown() {
+        compare_with_differences(&problem());
+    }
+
+    #[test]
+    fn derivatives_of_a_chain_are_differences_by_every_unknown() {
+        compare_with_differences(&chain());
+    }
+
+    /// Reference: receptances coupled as a whole.
+    #[test]
+    fn observed_functions_are_those_of_the_whole() {
+        for problem in [problem(), chain()] {
+            let assembled = Assembled::new(&problem, &unknowns(&problem)).unwrap();
+            let (line, whole) = (assembled.line(1).unwrap(), assembled.whole(1).unwrap());
+            for (function, one) in line.functions.iter().zip(&problem.observed) {
+                let expected = whole.receptance()[(one.at[0], one.at[1])];
+                assert!((function - expected).norm() < 1e-12 * expected.norm());
+            }
+            let apart = (line.by_joint_loads - whole.by_joint_loads()).norm();
+            assert!(apart < 1e-12 * whole.by_joint_loads().norm());
         }
     }
 }

@@ -5,8 +5,6 @@ use bolted_joint_frf::Dof;
 use bolted_joint_virtual_point::{Consistency, Place, Role, VirtualPoint, Weights};
 
 use crate::error::SpatialError;
-use crate::fits::key;
-use crate::side::Interface;
 use crate::study::SpatialStudy;
 
 /// How consistent the channels or the impacts of a side are.
@@ -45,11 +43,11 @@ impl SpatialStudy {
     /// [`SpatialError::VirtualPoint`] for functions that cannot be used.
     pub fn consistency(&self) -> Result<Vec<SideConsistency>, SpatialError> {
         let mut all = Vec::new();
-        for (n, (name, side)) in ["a", "b"].into_iter().zip(&self.problem.sides).enumerate() {
-            let Interface::Points(set_up) = &side.interface else {
+        for (name, side) in ["a", "b"].into_iter().zip(&self.problem.sides) {
+            let Some((placed, set_up)) = side.points() else {
                 continue;
             };
-            let refused = |source| SpatialError::of_side(n, source);
+            let refused = |source| placed.refused(source);
             let near = [set_up.channels().count(), set_up.impacts().count()];
             let lines: Vec<_> = side
                 .lines
@@ -73,7 +71,7 @@ impl SpatialStudy {
                     role,
                     overall,
                     specific: each
-                        .map(|(row, (own, dof))| (key(name, side, place(row)), *dof, own))
+                        .map(|(row, (own, dof))| (placed.key(place(row)), *dof, own))
                         .collect(),
                 });
             }

@@ -6,17 +6,7 @@ use bolted_joint_study::StudyError;
 use bolted_joint_virtual_point::VirtualPointError;
 use thiserror::Error;
 
-use crate::chain::OfInterface;
-
-impl SpatialError {
-    /// Of the virtual point of a, 0, or of b, 1.
-    pub(crate) fn of_side(side: usize, source: VirtualPointError) -> Self {
-        Self::VirtualPoint {
-            side: ["a", "b"][side],
-            source,
-        }
-    }
-}
+use crate::side::OfInterface;
 
 impl From<OfInterface> for SpatialError {
     fn from(OfInterface { name, source }: OfInterface) -> Self {
@@ -27,14 +17,6 @@ impl From<OfInterface> for SpatialError {
 /// Why no joint can be identified.
 #[derive(Debug, Error)]
 pub enum SpatialError {
-    /// The virtual point of a substructure.
-    #[error("{side}: {source}")]
-    VirtualPoint {
-        /// `a` or `b`.
-        side: &'static str,
-        /// What is wrong with it.
-        source: VirtualPointError,
-    },
     /// The joint's matrices.
     #[error(transparent)]
     Space(#[from] SpaceError),

@@ -45,6 +45,17 @@ impl Fit {
         Self::of(problem, start, deviations, Effort::Full)
     }
 
+    /// From here on with other lines or levels. Where this search has not converged, that one has not.
+    pub(crate) fn on(
+        self,
+        problem: &Problem,
+        deviations: &Deviations,
+    ) -> Result<Self, SpatialError> {
+        let mut own = Self::from(problem, self.unknowns, deviations)?;
+        own.has_converged &= self.has_converged;
+        Ok(own)
+    }
+
     /// From these unknowns downhill.
     pub(crate) fn of(
         problem: &Problem,

@@ -1,6 +1,6 @@
 //! What the result shows of functions and of the set-up.
 
-use bolted_joint_virtual_point::{Parameter, Place};
+use bolted_joint_virtual_point::Place;
 use nalgebra::DMatrix;
 
 use crate::assembled::Assembled;
@@ -9,8 +9,7 @@ use crate::identification::{FunctionFit, SetUpError};
 use crate::level::squares;
 use crate::parallel::over_lines;
 use crate::problem::{Observed, Problem, Unknowns};
-use crate::side::{Interface, Side};
-use crate::study::SpatialStudy;
+use crate::side::{Placed, Side};
 
 /// Functions that are shown, of each pair of sides.
 const SHOWN: usize = 2;
@@ -69,46 +68,43 @@ pub(crate) fn strongest(
         .collect())
 }
 
-impl SpatialStudy {
+impl Problem {
     /// What the errors of the set-up came to; `covariance` is that of all unknowns.
-    pub(crate) fn errors(&self, unknowns: &Unknowns, covariance: &DMatrix<f64>) -> Vec<SetUpError> {
-        let problem = &self.problem;
-        let first = problem.joint_count();
-        let sides = ["a", "b"].into_iter().zip(&problem.sides);
-        let parameters = sides.flat_map(|(name, side)| {
-            let own = side.parameters().into_iter();
-            own.map(move |parameter| (key(name, side, parameter.place), parameter))
-        });
+    pub(crate) fn found_errors(
+        &self,
+        unknowns: &Unknowns,
+        covariance: &DMatrix<f64>,
+    ) -> Vec<SetUpError> {
+        let first = self.joint_count();
+        let parameters = self.sides.iter().flat_map(Side::parameters);
         parameters
-            .zip(problem.error_deviations())
+            .zip(self.error_deviations())
             .enumerate()
-            .map(
-                |(n, ((key, Parameter { change, .. }), expected))| SetUpError {
-                    key,
-                    change,
-                    value: unknowns.0[first + n],
-                    deviation: covariance[(first + n, first + n)].sqrt(),
-                    expected,
-                },
-            )
+            .map(|(n, ((placed, parameter), expected))| SetUpError {
+                key: placed.key(parameter.place),
+                change: parameter.change,
+                value: unknowns.0[first + n],
+                deviation: covariance[(first + n, first + n)].sqrt(),
+                expected,
+            })
             .collect()
     }
 }
 
-/// A sensor's or impact's key in the study.
-pub(crate) fn key(name: &str, side: &Side, place: Place) -> String {
-    match place {
-        Place::Sensor(number) => format!("{name}.sensors[{number}]"),
-        Place::Impact(number) => format!("{name}.impacts[{number}]"),
-        Place::Channel(row) => {
-            let number = match &side.interface {
-                Interface::Node => None,
-                Interface::Points(set_up) => {
+impl Placed {
+    /// A sensor's or impact's key in the study.
+    pub(crate) fn key(&self, place: Place) -> String {
+        let name = &self.name;
+        match place {
+            Place::Sensor(number) => format!("{name}.sensors[{number}]"),
+            Place::Impact(number) => format!("{name}.impacts[{number}]"),
+            Place::Channel(row) => {
+                let number = self.points().and_then(|(_, set_up)| {
                     let mut each = set_up.channels().rows_of_each().into_iter();
                     each.position(|rows| rows.contains(&row))
-                }
-            };
-            format!("{name}.sensors[{}]", number.unwrap_or_default())
+                });
+                format!("{name}.sensors[{}]", number.unwrap_or_default())
+            }
         }
     }
 }

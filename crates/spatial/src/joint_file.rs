@@ -1,36 +1,42 @@
 //! The joint file of what was found.
 
 use bolted_joint_joint::{
-    BudgetRecord, Correlation, DofSet, Format, FreeEstimate, GroupRecord, Intervals, Joint,
-    JointFile, Residual, StandardDeviation, Status, Uncertainty, Validity,
+    BudgetRecord, Correlation, DofSet, Format, FreeEstimate, GroupRecord, InputFile, Intervals,
+    Joint, JointFile, Residual, StandardDeviation, Status, Uncertainty, Validity,
 };
 use bolted_joint_study::{Method, provenance};
-use nalgebra::Matrix6;
+use nalgebra::{DMatrix, Matrix6};
 
 use crate::SpatialStudy;
-use crate::identification::{QUANTILE, SpatialIdentification};
+use crate::chain::{ChainIdentification, ChainStudy, FoundJoint};
+use crate::identification::{QUANTILE, SpatialIdentification, Unknown};
 use crate::problem::Level;
 
-impl SpatialIdentification {
-    /// The joint file: six degrees of freedom, or those on which the model has anything.
-    #[must_use]
-    pub fn joint_file(&self, study: &SpatialStudy) -> JointFile {
-        let dofs = dofs(&self.stiffness);
-        let rows: Vec<usize> = dofs
-            .rows()
-            .filter_map(|dof| DofSet::SPACE.position(dof.name))
-            .collect();
+/// What is told of one joint.
+struct Told<'t> {
+    name: String,
+    reasons_against: &'t [String],
+    matrices: [&'t Matrix6<f64>; 2],
+    free: Option<&'t [Matrix6<f64>; 2]>,
+    deviations: &'t [Matrix6<f64>; 2],
+    basis: String,
+    unknowns: &'t [Unknown],
+    correlation: &'t DMatrix<f64>,
+    budget: Option<BudgetRecord>,
+    frequency_hz: &'t [f64],
+    residual: Residual,
+    model: &'t str,
+    files: &'t [InputFile],
+    notes: &'t [String],
+}
+
+impl Told<'_> {
+    fn joint_file(self) -> JointFile {
+        let Numbered { dofs, rows } = Numbered::of(self.matrices[0]);
         let part = |matrix: &Matrix6<f64>| lists(&rows, |i, j| matrix[(i, j)]);
-        let [of_stiffness, of_damping] = &self.deviations;
-        let [free_stiffness, free_damping] = match &self.free {
-            Some([stiffness, damping]) => [stiffness, damping],
-            None => [&self.stiffness, &self.damping],
-        };
-        let deviation = |[stiffness, damping]: &[Matrix6<f64>; 2]| StandardDeviation {
-            stiffness: part(stiffness),
-            damping: part(damping),
-        };
-        let interval = |matrix: &Matrix6<f64>, free: &Matrix6<f64>, deviation: &Matrix6<f64>| {
+        let interval = |n: usize| {
+            let (matrix, deviation) = (self.matrices[n], &self.deviations[n]);
+            let free = self.free.map_or(matrix, |free| &free[n]);
             lists(&rows, |i, j| {
                 [-1.0, 1.0].map(|sign| {
                     let end = free[(i, j)] + sign * QUANTILE * deviation[(i, j)];
@@ -39,19 +45,73 @@ impl SpatialIdentification {
                 })
             })
         };
+        let count = self.unknowns.len();
+        let names = |of: fn(&Unknown) -> bool| {
+            let unknowns = self.unknowns.iter().filter(|unknown| of(unknown));
+            unknowns.map(|unknown| unknown.name.clone()).collect()
+        };
+        let [stiffness, damping] = self.matrices;
+        JointFile {
+            format: Format::V1,
+            name: self.name,
+            status: Status::against(self.reasons_against),
+            joint: Joint::linear(dofs, part(stiffness), part(damping)),
+            bodies: None,
+            uncertainty: Some(Uncertainty {
+                standard_deviation: StandardDeviation {
+                    stiffness: part(&self.deviations[0]),
+                    damping: part(&self.deviations[1]),
+                },
+                basis: self.basis,
+                correlation: Some(Correlation {
+                    unknowns: names(|_| true),
+                    matrix: (0..count)
+                        .map(|i| (0..count).map(|j| self.correlation[(i, j)]).collect())
+                        .collect(),
+                }),
+                interval_95: Some(Intervals {
+                    stiffness: interval(0),
+                    damping: interval(1),
+                }),
+                budget: self.budget,
+                not_identified: names(|unknown| !unknown.is_determined),
+                free_estimate: self.free.map(|[stiffness, damping]| FreeEstimate {
+                    stiffness: part(stiffness),
+                    damping: part(damping),
+                    ..FreeEstimate::default()
+                }),
+                ..Uncertainty::default()
+            }),
+            validity: self.frequency_hz.first().zip(self.frequency_hz.last()).map(
+                |(first, last)| Validity {
+                    frequency_hz: [*first, *last],
+                    torque_n_m: None,
+                    level: None,
+                },
+            ),
+            residual: Some(self.residual),
+            provenance: Some(provenance(
+                Method::FrfSpace,
+                self.model.to_owned(),
+                self.files.to_vec(),
+                self.notes.to_vec(),
+            )),
+        }
+    }
+}
+
+impl SpatialIdentification {
+    /// The joint file: six degrees of freedom, or those on which the model has anything.
+    #[must_use]
+    pub fn joint_file(&self, study: &SpatialStudy) -> JointFile {
+        let rows = Numbered::of(&self.stiffness).rows;
+        let part = |matrix: &Matrix6<f64>| lists(&rows, |i, j| matrix[(i, j)]);
         // part of each entry's variance
         let share = |own: &Matrix6<f64>, all: &Matrix6<f64>| {
             lists(&rows, |i, j| match all[(i, j)] {
                 0.0 => 0.0,
                 all => (own[(i, j)] / all).powi(2).min(1.0),
             })
-        };
-        let problem = &study.problem;
-        let level = match study.level {
-            Level::Relative(part) => {
-                format!("noise of {} % of each function's r.m.s.", 100.0 * part)
-            }
-            Level::OfResiduals => "noise as large as each function's residual".to_owned(),
         };
         let substructures = match (study.noise, &self.substructures) {
             ([a, b], Some(found)) => format!(
@@ -62,83 +122,109 @@ impl SpatialIdentification {
             ),
             _ => "the substructures' functions taken as exact".to_owned(),
         };
-        let errors = match problem.tolerances {
+        let tolerances = study.problem.tolerances;
+        let errors = match tolerances {
             None => "the set-up taken as exact",
             Some(_) => "with what errors of sensors and impacts do to the estimate, to first order",
         };
-        let count = self.unknowns.len();
-        let frequency = &problem.frequency_hz;
-        JointFile {
-            format: Format::V1,
+        let [by_stiffness, by_damping] = &self.deviations;
+        let [of_stiffness, of_damping] = &self.deviations_by_noise;
+        let level = words(study.level);
+        Told {
             name: study.name.clone(),
-            status: Status::against(&self.reasons_against),
-            joint: Joint::linear(dofs, part(&self.stiffness), part(&self.damping)),
-            bodies: None,
-            uncertainty: Some(Uncertainty {
-                standard_deviation: deviation(&self.deviations),
-                basis: format!(
-                    "information matrix of the assembly's functions, {level}; {errors}; {substructures}"
-                ),
-                correlation: Some(Correlation {
-                    unknowns: self
-                        .unknowns
-                        .iter()
-                        .map(|unknown| unknown.name.clone())
-                        .collect(),
-                    matrix: (0..count)
-                        .map(|i| (0..count).map(|j| self.correlation[(i, j)]).collect())
-                        .collect(),
-                }),
-                interval_95: Some(Intervals {
-                    stiffness: interval(&self.stiffness, free_stiffness, of_stiffness),
-                    damping: interval(&self.damping, free_damping, of_damping),
-                }),
-                budget: problem.tolerances.map(|_| BudgetRecord {
-                    noise_alone: deviation(&self.deviations_by_noise),
-                    groups: self
-                        .groups
-                        .iter()
-                        .map(|group| GroupRecord {
-                            group: group.name.clone(),
-                            stiffness: share(&group.deviations[0], of_stiffness),
-                            damping: share(&group.deviations[1], of_damping),
-                        })
-                        .collect(),
-                    contradicted: Vec::new(),
-                }),
-                not_identified: self
-                    .unknowns
+            reasons_against: &self.reasons_against,
+            matrices: [&self.stiffness, &self.damping],
+            free: self.free.as_ref(),
+            deviations: &self.deviations,
+            basis: format!(
+                "information matrix of the assembly's functions, {level}; {errors}; {substructures}"
+            ),
+            unknowns: &self.unknowns,
+            correlation: &self.correlation,
+            budget: tolerances.map(|_| BudgetRecord {
+                noise_alone: StandardDeviation {
+                    stiffness: part(of_stiffness),
+                    damping: part(of_damping),
+                },
+                groups: self
+                    .groups
                     .iter()
-                    .filter(|unknown| !unknown.is_determined)
-                    .map(|unknown| unknown.name.clone())
+                    .map(|group| GroupRecord {
+                        group: group.name.clone(),
+                        stiffness: share(&group.deviations[0], by_stiffness),
+                        damping: share(&group.deviations[1], by_damping),
+                    })
                     .collect(),
-                free_estimate: self.free.as_ref().map(|[stiffness, damping]| FreeEstimate {
-                    stiffness: part(stiffness),
-                    damping: part(damping),
-                    ..FreeEstimate::default()
-                }),
-                ..Uncertainty::default()
+                contradicted: Vec::new(),
             }),
-            validity: frequency
-                .first()
-                .zip(frequency.last())
-                .map(|(first, last)| Validity {
-                    frequency_hz: [*first, *last],
-                    torque_n_m: None,
-                    level: None,
-                }),
-            residual: Some(Residual {
-                relative_rms: self.relative_rms,
-                lines: self.lines,
-                reduced_chi_squared: self.reduced_chi_squared,
-                ..Residual::default()
-            }),
-            provenance: Some(provenance(
-                Method::FrfSpace,
-                study.model.clone(),
-                study.files.clone(),
-                study.notes.clone(),
-            )),
+            frequency_hz: &study.problem.frequency_hz,
+            residual: residual(self.relative_rms, self.lines, self.reduced_chi_squared),
+            model: &study.model,
+            files: &study.files,
+            notes: &study.notes,
+        }
+        .joint_file()
+    }
+}
+
+impl FoundJoint {
+    /// Its joint file.
+    #[must_use]
+    pub fn joint_file(&self, study: &ChainStudy, found: &ChainIdentification) -> JointFile {
+        let level = words(study.level);
+        Told {
+            name: format!("{}, joint {}", study.name, self.number),
+            reasons_against: &found.reasons_against,
+            matrices: [&self.stiffness, &self.damping],
+            free: self.free.as_ref(),
+            deviations: &self.deviations,
+            basis: format!(
+                "information matrix of the assembly's functions with all joints that are sought, {level}; the set-up and the parts' \
+                 functions taken as exact"
+            ),
+            unknowns: &self.unknowns,
+            correlation: &self.correlation,
+            budget: None,
+            frequency_hz: &study.problem.frequency_hz,
+            residual: residual(found.relative_rms, found.lines, found.reduced_chi_squared),
+            model: &self.model,
+            files: &study.files,
+            notes: &study.notes,
+        }
+        .joint_file()
+    }
+}
+
+fn residual(relative_rms: f64, lines: usize, reduced_chi_squared: Option<f64>) -> Residual {
+    Residual {
+        relative_rms,
+        lines,
+        reduced_chi_squared,
+        ..Residual::default()
+    }
+}
+
+fn words(level: Level) -> String {
+    match level {
+        Level::Relative(part) => format!("noise of {} % of each function's r.m.s.", 100.0 * part),
+        Level::OfResiduals => "noise as large as each function's residual".to_owned(),
+    }
+}
+
+/// DOFs of the file, and their rows among the six.
+struct Numbered {
+    dofs: DofSet,
+    rows: Vec<usize>,
+}
+
+impl Numbered {
+    fn of(stiffness: &Matrix6<f64>) -> Self {
+        let dofs = dofs(stiffness);
+        let rows = dofs.rows();
+        let rows = rows.filter_map(|dof| DofSet::SPACE.position(dof.name));
+        Self {
+            rows: rows.collect(),
+            dofs,
         }
     }
 }

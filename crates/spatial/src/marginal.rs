@@ -15,8 +15,9 @@ use crate::assembled::Assembled;
 use crate::dyads::{Grid, Group, descent, information, squares};
 use crate::error::SpatialError;
 use crate::fit::covariance;
-use crate::normal::{Deviations, Normal, Patterns, residuals};
+use crate::normal::{Deviations, Normal, residuals};
 use crate::parallel::over_lines;
+use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
 use crate::search::SEARCHED;
 use crate::side::{MOTIONS, Reduction};
@@ -123,6 +124,21 @@ impl Problem {
         })
     }
 
+    /// What a test will tell of the joint whose functions are these, with noise of the substructures: the information, and how
+    /// many lines will take part.
+    pub(crate) fn told_beside_noise(
+        &self,
+        truth: &Unknowns,
+        level: &Deviations,
+        noise: [f64; 2],
+    ) -> Result<(Normal, usize), SpatialError> {
+        let kept = Marginal::of(self, level, noise)?.kept(truth)?;
+        let own = self.with_lines(&kept);
+        let marginal = Marginal::of(&own, level, noise)?;
+        let (normal, _) = marginal.normal(truth, &marginal.measured)?;
+        Ok((normal, kept.len()))
+    }
+
     /// The lines at which the substructures' noise moves the assembly's functions least: a half of all, and not too many.
     pub(crate) fn steadiest(
         &self,
@@ -157,7 +173,7 @@ impl Problem {
 fn reductions(problem: &Problem) -> Result<[Reduction; 2], SpatialError> {
     let of = |n: usize| {
         let reduction = problem.sides[n].reduction();
-        reduction.map_err(|source| SpatialError::of_side(n, source))
+        reduction.map_err(SpatialError::from)
     };
     Ok([of(0)?, of(1)?])
 }
@@ -174,7 +190,7 @@ impl<'p> Marginal<'p> {
         Ok(Self {
             problem,
             grid: Grid::new(problem.weights(level)),
-            patterns: Patterns::of(&problem.model),
+            patterns: Patterns::of(problem, None),
             noisy,
             measured: Self::reduced(problem, &reductions),
             reductions,
@@ -221,13 +237,7 @@ impl<'p> Marginal<'p> {
     fn kept(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
         let moved = self.moved(unknowns)?;
         let kept: Vec<usize> = (0..moved.len())
-            .filter(|&line| {
-                moved[line]
-                    < std::env::var("MOVED")
-                        .ok()
-                        .and_then(|x| x.parse().ok())
-                        .unwrap_or(MOVED_MAX)
-            })
+            .filter(|&line| moved[line] < MOVED_MAX)
             .collect();
         if kept.len() * self.problem.observed.len() <= self.problem.joint_count() {
             return Err(SpatialError::TooMuchNoise {
@@ -275,7 +285,7 @@ impl<'p> Marginal<'p> {
     /// (F + λ E)⁻¹ g with the least λ that bounds the step of the stiffness, E by what couples two motions at most.
     fn step(&self, unknowns: &Unknowns, normal: &Normal) -> Result<DVector<f64>, SpatialError> {
         let expected = self.problem.expected(unknowns)?;
-        let stiffness = self.problem.model.count();
+        let stiffness = self.problem.joint_count() / 2;
         let mut damping = 0.0;
         loop {
             let mut information = normal.information.clone();
@@ -309,7 +319,8 @@ impl<'p> Marginal<'p> {
             let mut followed = Vec::new();
             for line in lines {
                 let found = self.at_line(&assembled, line, &hidden[line])?;
-                normal.add_line(self.problem.omega(line), &found.products, &found.slopes);
+                let omega = self.problem.omega(line);
+                normal.add_line(omega, &self.patterns, &found.products, &found.slopes);
                 normal.cost += found.squares;
                 followed.push(found.hidden);
             }
@@ -334,7 +345,7 @@ impl<'p> Marginal<'p> {
         let functions = [0, 1].map(|n| self.reductions[n].expanded(&hidden[n]));
         let found = assembled.line_of(line, functions.each_ref())?;
         let (a, b) = (&found.by_joint_loads, &found.joint_motions);
-        let (a_d, d_b) = (a * found.dynamic, found.dynamic * b);
+        let (a_d, d_b) = (a * &found.dynamic, &found.dynamic * b);
         let skips = self.problem.skips();
         let mut groups = Vec::new();
         for own in &self.noisy {
@@ -358,7 +369,7 @@ impl<'p> Marginal<'p> {
             of_interface -= &d_b * sign;
             groups.push(Group { left, right });
         }
-        groups.push(found.dyads());
+        groups.extend(found.dyads(self.problem));
         Ok((found, groups))
     }
 

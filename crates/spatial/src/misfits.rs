@@ -9,9 +9,8 @@ use bolted_joint_virtual_point::{
 };
 
 use crate::error::SpatialError;
-use crate::fits::key;
 use crate::problem::Problem;
-use crate::side::{Interface, Side};
+use crate::side::{Placed, Side};
 use crate::study::SpatialStudy;
 
 /// Deviations of the budget within which an error is one that the budget speaks of. The others have errors too: of rigs without
@@ -55,8 +54,8 @@ impl SpatialStudy {
             sides, tolerances, ..
         } = &self.problem;
         let mut misfits = Vec::new();
-        for (n, (name, side)) in self.names.iter().zip(sides).enumerate() {
-            let Interface::Points(set_up) = &side.interface else {
+        for side in sides {
+            let Some((placed, set_up)) = side.points() else {
                 continue;
             };
             for role in [Role::Channel, Role::Impact] {
@@ -64,8 +63,8 @@ impl SpatialStudy {
                     Role::Channel => &tolerances.sensors,
                     Role::Impact => &tolerances.impacts,
                 });
-                let found = misfit(name, side, set_up, role, tolerance);
-                misfits.extend(found.map_err(|source| SpatialError::of_side(n, source))?);
+                let found = misfit(placed, side, set_up, role, tolerance);
+                misfits.extend(found.map_err(|source| placed.refused(source))?);
             }
         }
         Ok(misfits)
@@ -73,7 +72,7 @@ impl SpatialStudy {
 }
 
 fn misfit(
-    name: &str,
+    placed: &Placed,
     side: &Side,
     set_up: &SetUp,
     role: Role,
@@ -94,7 +93,7 @@ fn misfit(
         Some(suspect.place) == suspects.bad && tolerance.is_none_or(is_beyond)
     });
     Ok(bad.map(|suspect| Misfit {
-        key: key(name, side, suspect.place),
+        key: placed.key(suspect.place),
         dofs: dofs(side, set_up, suspect.place),
         ratio: suspect.ratio,
         diagnosis: suspect.diagnosis,

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use bolted_joint_space::Parametrisation;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
-use crate::dyads::{Grid, Group, descent, information};
+use crate::dyads::{Grid, descent, information, squares};
 use crate::error::SpatialError;
 use crate::parallel::over_lines;
+use crate::patterns::{Patterns, Sums};
 use crate::problem::{Problem, Unknowns};
 
 /// Weighted squares and what they say of a step.
@@ -68,17 +68,14 @@ impl Normal {
     ) -> Result<Self, SpatialError> {
         let assembled = Assembled::new(problem, unknowns)?;
         let grid = Grid::new(problem.weights(deviations));
-        let patterns = Patterns::of(&problem.model);
+        let patterns = Patterns::of(problem, Some(&assembled));
         let parts = over_lines(problem.frequency_hz.len(), |lines| {
-            match problem.error_count() {
-                0 => of_joint(problem, &assembled, &grid, &patterns, deviations, lines),
-                _ => of_all(problem, &assembled, deviations, lines),
-            }
+            of_lines(problem, &assembled, &grid, lines)
         })?;
-        let mut normal = Self::zeros(problem.count());
-        for part in &parts {
-            normal.add(part);
-        }
+        let mut parts = parts.into_iter();
+        let mut sums = parts.next().unwrap_or_default();
+        parts.for_each(|part| sums.add(&part));
+        let mut normal = patterns.normal(problem.count(), &sums);
         for (n, [error, deviation]) in priors(problem, unknowns).enumerate() {
             let place = problem.joint_count() + n;
             let weight = 1.0 / (deviation * deviation);
@@ -104,98 +101,27 @@ impl Normal {
     }
 }
 
-/// The joint alone: its derivatives are dyads of assembled relative motions.
-fn of_joint(
+/// Sums over dyads and lines; the unknowns follow from them once for all lines.
+fn of_lines(
     problem: &Problem,
     assembled: &Assembled<'_>,
     grid: &Grid,
-    patterns: &Patterns,
-    deviations: &Deviations,
     lines: Range<usize>,
-) -> Result<Normal, SpatialError> {
-    let mut normal = Normal::zeros(problem.count());
+) -> Result<Sums, SpatialError> {
+    let mut sums = Sums::default();
     for line in lines {
         let found = assembled.line(line)?;
         let errors = residuals(problem, line, &found);
-        let all = problem.observed.iter().zip(&found.functions);
-        for ((one, function), deviation) in all.zip(deviations) {
-            normal.cost += 2.0 * (one.values[line] - function).norm_sqr() / (deviation * deviation);
-        }
-        let groups = [found.dyads()];
-        // ∂Y_C = −a ∂D b
-        let products = patterns.products(&information(grid, &groups));
-        let slopes = patterns.slopes(&descent(grid, &groups, &errors));
-        normal.add_line(problem.omega(line), &products, &slopes);
+        let groups = assembled.dyads(line, &found);
+        sums.add_line(
+            problem.omega(line),
+            36 * problem.links.sought().len(),
+            &information(grid, &groups),
+            &descent(grid, &groups, &errors),
+            2.0 * squares(grid, &errors),
+        );
     }
-    Ok(normal)
-}
-
-impl Normal {
-    /// The information and descent of a line, by Jᴴ Σ⁻¹ J and Jᴴ Σ⁻¹ e of −J_k = a ∂K/∂k b: C's derivatives are jω times K's.
-    pub(crate) fn add_line(
-        &mut self,
-        omega: f64,
-        products: &DMatrix<Complex64>,
-        slopes: &DVector<Complex64>,
-    ) {
-        let count = slopes.len();
-        for k in 0..count {
-            for l in 0..count {
-                let product = 2.0 * products[(k, l)];
-                self.information[(k, l)] += product.re;
-                self.information[(k, count + l)] -= omega * product.im;
-                self.information[(count + k, l)] += omega * product.im;
-                self.information[(count + k, count + l)] += omega * omega * product.re;
-            }
-            let slope = 2.0 * slopes[k];
-            self.descent[k] -= slope.re;
-            self.descent[count + k] -= omega * slope.im;
-        }
-    }
-}
-
-/// Joint and errors of the set-up, by the table of derivatives.
-fn of_all(
-    problem: &Problem,
-    assembled: &Assembled<'_>,
-    deviations: &Deviations,
-    lines: Range<usize>,
-) -> Result<Normal, SpatialError> {
-    let (rows, count) = (problem.observed.len(), problem.count());
-    let mut normal = Normal::zeros(count);
-    let mut real = DMatrix::zeros(2 * rows, count);
-    let mut errors = DVector::zeros(2 * rows);
-    for line in lines {
-        let found = assembled.line(line)?;
-        let derivatives = assembled.derivatives(line, &found);
-        for (row, one) in problem.observed.iter().enumerate() {
-            // E (Re ε)² = σ²/2
-            let weight = std::f64::consts::SQRT_2 / deviations[row];
-            let error = one.values[line] - found.functions[row];
-            errors[2 * row] = weight * error.re;
-            errors[2 * row + 1] = weight * error.im;
-            for column in 0..count {
-                let derivative = derivatives[(row, column)];
-                real[(2 * row, column)] = weight * derivative.re;
-                real[(2 * row + 1, column)] = weight * derivative.im;
-            }
-        }
-        // transposed first: the product of matrices as they lie is the fast one
-        normal.information.gemm(1.0, &real.transpose(), &real, 1.0);
-        normal.descent.gemv_tr(1.0, &real, &errors, 1.0);
-        normal.cost += errors.norm_squared();
-    }
-    Ok(normal)
-}
-
-impl Line {
-    /// a and b, the dyads of every change of the joint.
-    pub(crate) fn dyads(&self) -> Group {
-        Group {
-            left: self.by_joint_loads.clone(),
-            right: self.joint_motions.clone(),
-        }
-    }
+    Ok(sums)
 }
 
 /// Measured less computed functions, rows × columns, 0 where nothing was measured.
@@ -207,57 +133,13 @@ pub(crate) fn residuals(problem: &Problem, line: usize, found: &Line) -> DMatrix
     errors
 }
 
-/// ∂K/∂k of each unknown, as places and factors of its 36 entries.
-pub(crate) struct Patterns(Vec<Vec<(usize, f64)>>);
-
-impl Patterns {
-    pub(crate) fn of(model: &Parametrisation) -> Self {
-        let entries = |basis: &nalgebra::Matrix6<f64>| {
-            (0..36)
-                .map(|place| (place, basis[(place / 6, place % 6)]))
-                .filter(|(_, factor)| *factor != 0.0)
-                .collect()
-        };
-        Self(model.bases().iter().map(entries).collect())
-    }
-
-    /// Eᵀ M E of sums over the 36 entries.
-    pub(crate) fn products(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        let half = self.columns(sums);
-        DMatrix::from_fn(self.0.len(), self.0.len(), |k, l| {
-            let own = self.0[k].iter();
-            own.map(|(place, factor)| *factor * half[(*place, l)]).sum()
-        })
-    }
-
-    /// M E.
-    pub(crate) fn columns(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        DMatrix::from_fn(sums.nrows(), self.0.len(), |row, l| {
-            let own = self.0[l].iter();
-            own.map(|(place, factor)| *factor * sums[(row, *place)])
-                .sum()
-        })
-    }
-
-    /// Eᵀ v.
-    pub(crate) fn slopes(&self, sums: &DVector<Complex64>) -> DVector<Complex64> {
-        let of = |entries: &Vec<(usize, f64)>| {
-            let own = entries.iter();
-            own.map(|(place, factor)| *factor * sums[*place]).sum()
-        };
-        DVector::from_iterator(self.0.len(), self.0.iter().map(of))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::problem;
+    use crate::samples::{chain, problem};
 
     /// The sums of dyads against the table of derivatives.
-    #[test]
-    fn dyads_sum_up_to_the_normal_equations_of_the_table() {
-        let mut problem = problem();
+    fn compare(mut problem: Problem) {
         let mut seed = 4;
         for one in &mut problem.observed {
             for value in &mut one.values {
@@ -265,27 +147,56 @@ mod tests {
             }
         }
         let at = crate::samples::unknowns(&problem);
-        let errors = problem.errors(&at);
         let deviations: Vec<f64> = (0..problem.observed.len())
             .map(|n| 1e-9 * (1.0 + n as f64))
             .collect();
-        let all = Normal::of(&problem, &at, &deviations).unwrap();
-        let exact = problem.displaced(&at).unwrap();
-        assert!(errors.iter().flatten().any(|error| *error != 0.0));
-        let count = problem.joint_count();
-        let own = Unknowns(at.0.rows(0, count).into_owned());
-        let joint = Normal::of(&exact, &own, &deviations).unwrap();
-        let priors = squares_of_errors(&problem, &at);
-        assert!((joint.cost + priors - all.cost).abs() < 1e-9 * all.cost);
-        assert!((cost(&exact, &own, &deviations).unwrap() - joint.cost).abs() < 1e-12 * joint.cost);
-        for i in 0..count {
-            let scale = |n: usize| all.information[(n, n)].sqrt();
-            for j in 0..count {
-                let difference = joint.information[(i, j)] - all.information[(i, j)];
-                assert!(difference.abs() < 1e-9 * scale(i) * scale(j), "{i} {j}");
+        let found = Normal::of(&problem, &at, &deviations).unwrap();
+        let assembled = Assembled::new(&problem, &at).unwrap();
+        let count = problem.count();
+        let mut expected = Normal::zeros(count);
+        for line in 0..problem.frequency_hz.len() {
+            let own = assembled.line(line).unwrap();
+            let derivatives = assembled.derivatives(line, &own);
+            for (row, one) in problem.observed.iter().enumerate() {
+                let weight = 2.0 / (deviations[row] * deviations[row]);
+                let error = one.values[line] - own.functions[row];
+                expected.cost += weight * error.norm_sqr();
+                for i in 0..count {
+                    let own = weight * derivatives[(row, i)].conj();
+                    expected.descent[i] += (own * error).re;
+                    for j in 0..count {
+                        expected.information[(i, j)] += (own * derivatives[(row, j)]).re;
+                    }
+                }
             }
-            let difference = joint.descent[i] - all.descent[i];
-            assert!(difference.abs() < 1e-9 * scale(i) * all.cost.sqrt(), "{i}");
         }
+        for (n, [error, deviation]) in priors(&problem, &at).enumerate() {
+            let place = problem.joint_count() + n;
+            let weight = 1.0 / (deviation * deviation);
+            expected.information[(place, place)] += weight;
+            expected.descent[place] -= weight * error;
+            expected.cost += weight * error * error;
+        }
+        assert!((found.cost - expected.cost).abs() < 1e-12 * expected.cost);
+        let again = cost(&problem, &at, &deviations).unwrap();
+        assert!((again - expected.cost).abs() < 1e-12 * expected.cost);
+        for i in 0..count {
+            let scale = |n: usize| expected.information[(n, n)].sqrt();
+            for j in 0..count {
+                let difference = found.information[(i, j)] - expected.information[(i, j)];
+                assert!(difference.abs() < 1e-10 * scale(i) * scale(j), "{i} {j}");
+            }
+            let difference = found.descent[i] - expected.descent[i];
+            assert!(
+                difference.abs() < 1e-10 * scale(i) * expected.cost.sqrt(),
+                "{i}"
+            );
+        }
+    }
+
+    #[test]
+    fn dyads_sum_up_to_the_normal_equations_of_the_table() {
+        compare(problem());
+        compare(chain());
     }
 }

@@ -1,14 +1,15 @@
-//! What is given and what is asked: two substructures, the functions of their assembly, and the joint's unknowns.
+//! What is given and what is asked: substructures, the functions of their assembly, and the unknowns of the joints.
 
 use std::f64::consts::TAU;
 
-use bolted_joint_space::{Parametrisation, SpaceError};
+use bolted_joint_space::{Dof, Selection, SpaceError};
 use bolted_joint_virtual_point::Tolerances;
-use nalgebra::{DMatrix, DVector, Matrix6};
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::error::SpatialError;
-use crate::side::Side;
+use crate::links::{Links, Sought};
+use crate::side::{Side, Transformations};
 
 /// How large the noise of the assembly's functions is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,21 +29,18 @@ pub(crate) struct Observed {
     pub(crate) values: Vec<Complex64>,
 }
 
-/// Two substructures, their assembly, the joint.
+/// Substructures on two sides, their assembly, the joints.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
     pub(crate) sides: [Side; 2],
     pub(crate) frequency_hz: Vec<f64>,
     pub(crate) observed: Vec<Observed>,
-    /// That of K and of C alike.
-    pub(crate) model: Parametrisation,
-    /// Scales rotations, m.
-    pub(crate) length_m: f64,
+    pub(crate) links: Links,
     /// Of the set-ups; `None` where they are exact.
     pub(crate) tolerances: Option<Tolerances>,
 }
 
-/// Unknowns: of stiffness, of damping, and errors of the set-up of a and of b.
+/// Unknowns: of stiffness and of damping of each joint, and errors of the set-up of a and of b.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Unknowns(pub(crate) DVector<f64>);
 
@@ -63,7 +61,7 @@ impl Problem {
             responses: side.responses.clone(),
             references: side.references.clone(),
             lines: kept.iter().map(|&line| side.lines[line].clone()).collect(),
-            interface: side.interface.clone(),
+            interfaces: side.interfaces.clone(),
         };
         let observed = |one: &Observed| Observed {
             at: one.at,
@@ -73,15 +71,26 @@ impl Problem {
             sides: self.sides.each_ref().map(side),
             frequency_hz: kept.iter().map(|&line| self.frequency_hz[line]).collect(),
             observed: self.observed.iter().map(observed).collect(),
-            model: self.model.clone(),
-            length_m: self.length_m,
+            links: self.links.clone(),
             tolerances: self.tolerances,
         }
     }
 
-    /// Unknowns of the joint.
+    /// Unknowns of the joints.
     pub(crate) fn joint_count(&self) -> usize {
-        2 * self.model.count()
+        self.links.count()
+    }
+
+    /// Relative motions of all joints.
+    pub(crate) fn motions(&self) -> usize {
+        self.links.motions()
+    }
+
+    /// The joint that is sought, where it is the only one.
+    pub(crate) fn only(&self) -> Result<Sought<'_>, SpatialError> {
+        let sought = self.links.sought();
+        let only = sought.first().filter(|_| sought.len() == 1);
+        only.copied().ok_or(SpatialError::AllKnown)
     }
 
     /// Errors of the set-up that are unknown: of a and of b.
@@ -108,9 +117,8 @@ impl Problem {
         let mut own = self.clone();
         own.tolerances = None;
         let errors = self.errors(unknowns);
-        for (n, (side, errors)) in own.sides.iter_mut().zip(&errors).enumerate() {
-            let displaced = side.interface.displaced(errors);
-            side.interface = displaced.map_err(|source| SpatialError::of_side(n, source))?;
+        for (side, errors) in own.sides.iter_mut().zip(&errors) {
+            *side = side.displaced(errors)?;
         }
         Ok(own)
     }
@@ -131,26 +139,17 @@ impl Problem {
     /// How far unknowns are expected to be off: those of the joint by what couples their motions at most, errors of the
     /// set-up by their deviations.
     pub(crate) fn expected(&self, unknowns: &Unknowns) -> Result<DVector<f64>, SpaceError> {
-        let matrices = self.matrices(unknowns)?;
-        let entries = self.model.entries();
-        let of_joint = matrices.iter().flat_map(|matrix| {
-            entries.iter().map(|entry| {
-                let own = [entry.row, entry.column].map(|dof| matrix[(dof as usize, dof as usize)]);
-                (own[0] * own[1]).abs().sqrt()
-            })
-        });
-        let all: Vec<f64> = of_joint.chain(self.error_deviations()).collect();
+        let of_joints = self.links.sizes(unknowns.0.as_slice())?;
+        let all: Vec<f64> = of_joints
+            .into_iter()
+            .chain(self.error_deviations())
+            .collect();
         Ok(DVector::from_vec(all))
     }
 
-    /// K and C.
-    pub(crate) fn matrices(&self, unknowns: &Unknowns) -> Result<[Matrix6<f64>; 2], SpaceError> {
-        let count = self.model.count();
-        let values = unknowns.0.as_slice();
-        Ok([
-            self.model.matrix(&values[..count])?,
-            self.model.matrix(&values[count..2 * count])?,
-        ])
+    /// K and C of all joints, one after the other on the diagonal.
+    pub(crate) fn matrices(&self, unknowns: &Unknowns) -> Result<[DMatrix<f64>; 2], SpaceError> {
+        self.links.matrices(unknowns.0.as_slice())
     }
 
     /// Errors of the set-ups; zero where they are exact.
@@ -166,6 +165,27 @@ impl Problem {
             start += counts[side];
             own
         })
+    }
+
+    /// S of the rows, and of the columns: the motions of the interfaces of a less those of b, as the transformations have them.
+    pub(crate) fn selections(
+        &self,
+        [a, b]: [&Transformations; 2],
+    ) -> Result<[Selection; 2], SpaceError> {
+        let motions = self.motions();
+        let of = |a: &DMatrix<Complex64>, b: &DMatrix<Complex64>| {
+            let matrix = DMatrix::from_fn(motions, a.ncols() + b.ncols(), |i, j| {
+                match j.checked_sub(a.ncols()) {
+                    None => a[(i, j)].re,
+                    Some(j) => -b[(i, j)].re,
+                }
+            });
+            Selection::new(matrix, Dof::ALL.into_iter().cycle().take(motions).collect())
+        };
+        Ok([
+            of(&a.motions, &b.motions)?,
+            of(&a.loads.transpose(), &b.loads.transpose())?,
+        ])
     }
 
     /// Rows and columns of the assembly before those of b.
@@ -191,4 +211,13 @@ impl Problem {
     pub(crate) fn numbers(&self) -> usize {
         2 * self.observed.len() * self.frequency_hz.len()
     }
+}
+
+/// Two matrices on a diagonal.
+pub(crate) fn block_diagonal(blocks: [&DMatrix<Complex64>; 2]) -> DMatrix<Complex64> {
+    let [a, b] = blocks;
+    let mut all = DMatrix::zeros(a.nrows() + b.nrows(), a.ncols() + b.ncols());
+    all.view_mut((0, 0), a.shape()).copy_from(a);
+    all.view_mut(a.shape(), b.shape()).copy_from(b);
+    all
 }

@@ -19,18 +19,7 @@ const NOT_PASSIVE: f64 = 1e-9;
 
 impl SpatialIdentification {
     pub(crate) fn reasons(&self, has_converged: bool) -> Vec<String> {
-        let mut reasons = Vec::new();
-        if !has_converged {
-            reasons.push(
-                "the search has not converged, or its starts lead to different minima".to_owned(),
-            );
-        }
-        if self.relative_rms > RESIDUAL_MAX {
-            reasons.push(format!(
-                "the residual is {:.0} % of the functions: the model is not that of the data; check units, directions and signs",
-                100.0 * self.relative_rms
-            ));
-        }
+        let mut reasons = of_search(has_converged, self.relative_rms);
         if let Some(used) = self.budget_used.filter(|&used| used > BEYOND_BUDGET) {
             reasons.push(format!(
                 "the errors of the set-up would be {:.1} times as large as the budget says: check positions, directions, signs and gains \
@@ -38,11 +27,7 @@ impl SpatialIdentification {
                 used.sqrt()
             ));
         }
-        if let Some(chi) = self.reduced_chi_squared.filter(|&chi| chi > MISFIT) {
-            reasons.push(format!(
-                "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
-            ));
-        }
+        reasons.extend(of_noise(self.reduced_chi_squared));
         for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
             if let Err(refused) = semidefinite(matrix)
                 && !is_excused(matrix)
@@ -52,6 +37,31 @@ impl SpatialIdentification {
         }
         reasons
     }
+}
+
+/// Of a search, and of how far its functions are from the measured ones.
+pub(crate) fn of_search(has_converged: bool, relative_rms: f64) -> Vec<String> {
+    let mut reasons = Vec::new();
+    if !has_converged {
+        reasons.push(
+            "the search has not converged, or its starts lead to different minima".to_owned(),
+        );
+    }
+    if relative_rms > RESIDUAL_MAX {
+        reasons.push(format!(
+            "the residual is {:.0} % of the functions: the model is not that of the data; check units, directions and signs",
+            100.0 * relative_rms
+        ));
+    }
+    reasons
+}
+
+/// Of noise that is stated.
+pub(crate) fn of_noise(reduced_chi_squared: Option<f64>) -> Option<String> {
+    let chi = reduced_chi_squared.filter(|&chi| chi > MISFIT)?;
+    Some(format!(
+        "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
+    ))
 }
 
 /// Whether a negative eigenvalue is rounding.

@@ -1,4 +1,7 @@
-//! One substructure: its functions, and how its interface's motions and loads follow from them.
+//! The structures on one side of the joints: their functions, and how the motions and loads of their interfaces follow from them.
+//!
+//! A joint connects a structure of one side with one of the other. Of two structures each is a side; of a chain every second
+//! one belongs to side a, and the others to side b.
 
 use bolted_joint_frf::Dof;
 use bolted_joint_virtual_point::{
@@ -10,15 +13,26 @@ use num_complex::Complex64;
 /// Motions of an interface.
 pub(crate) const MOTIONS: usize = 6;
 
-/// A substructure.
+/// One structure, or those of a chain that do not touch each other.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
-    /// Channels or motions of the interface first, then what else responds.
+    /// Channels or motions of the interfaces first, then what else responds.
     pub(crate) responses: Vec<Dof>,
-    /// Impacts or loads on the interface first, then what else is excited.
+    /// Impacts or loads on the interfaces first, then what else is excited.
     pub(crate) references: Vec<Dof>,
     /// Receptances, responses × references, at each line.
     pub(crate) lines: Vec<DMatrix<Complex64>>,
+    /// One for each joint, in their order.
+    pub(crate) interfaces: Vec<Placed>,
+}
+
+/// An interface, and where its channels and impacts are among those of the side.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed {
+    /// The table of the study that has its sensors and impacts: `a`, `b`, `b.far`.
+    pub(crate) name: String,
+    /// Its first response, and its first reference.
+    pub(crate) first: [usize; 2],
     pub(crate) interface: Interface,
 }
 
@@ -41,8 +55,18 @@ impl Interface {
     }
 }
 
-/// T_u (6 × responses) and T_f (references × 6), and how they change with each error of the set-up: of sensors, then of
-/// impacts.
+impl Placed {
+    /// What may be wrong with the channels, or with the impacts.
+    pub(crate) fn parameters(&self, role: Role) -> Vec<Parameter> {
+        match &self.interface {
+            Interface::Node => Vec::new(),
+            Interface::Points(set_up) => set_up.places(role).parameters(),
+        }
+    }
+}
+
+/// T_u (motions × responses) and T_f (references × motions), and how they change with each error of the set-up: of sensors, then
+/// of impacts.
 #[derive(Clone, Debug)]
 pub(crate) struct Transformations {
     pub(crate) motions: DMatrix<Complex64>,
@@ -75,23 +99,38 @@ impl Reduction {
     }
 }
 
+/// An error of a virtual point, with the table of the study that it belongs to.
+#[derive(Debug)]
+pub(crate) struct OfInterface {
+    pub(crate) name: String,
+    pub(crate) source: VirtualPointError,
+}
+
 impl Side {
-    /// Of a set-up without errors.
-    pub(crate) fn reduction(&self) -> Result<Reduction, VirtualPointError> {
+    /// Motions of its interfaces.
+    pub(crate) fn motions(&self) -> usize {
+        MOTIONS * self.interfaces.len()
+    }
+
+    /// The interface with its sensors and impacts, of a side with one interface that has any.
+    pub(crate) fn points(&self) -> Option<(&Placed, &SetUp)> {
+        self.interfaces.first().and_then(Placed::points)
+    }
+
+    /// Of one interface whose channels and impacts come first, and a set-up without errors.
+    pub(crate) fn reduction(&self) -> Result<Reduction, OfInterface> {
         let (p, q) = (self.responses.len(), self.references.len());
-        let set_up = match &self.interface {
-            Interface::Node => {
-                let unit = |count: usize| DMatrix::identity(count, count);
-                return Ok(Reduction {
-                    rows: unit(p),
-                    columns: unit(q),
-                    motions: unit(p),
-                    loads: unit(q),
-                });
-            }
-            Interface::Points(set_up) => set_up,
+        let Some((placed, set_up)) = self.points() else {
+            let unit = |count: usize| DMatrix::identity(count, count);
+            return Ok(Reduction {
+                rows: unit(p),
+                columns: unit(q),
+                motions: unit(p),
+                loads: unit(q),
+            });
         };
-        let point = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal)?;
+        let point = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal)
+            .map_err(|source| placed.refused(source))?;
         // beside the interface's, what is measured elsewhere stands for itself
         let beside = |own: &DMatrix<f64>, height: usize, width: usize| {
             let (n, m) = own.shape();
@@ -114,63 +153,121 @@ impl Side {
         })
     }
 
-    /// Errors that the set-up may have.
-    pub(crate) fn parameters(&self) -> Vec<Parameter> {
-        match &self.interface {
-            Interface::Node => Vec::new(),
-            Interface::Points(set_up) => set_up.parameters(),
-        }
+    /// Errors that the set-up may have, with the interface that they belong to: those of channels, then those of impacts.
+    pub(crate) fn parameters(&self) -> Vec<(&Placed, Parameter)> {
+        let of = |role| {
+            let placed = self.interfaces.iter();
+            placed.flat_map(move |placed| {
+                let own = placed.parameters(role).into_iter();
+                own.map(move |parameter| (placed, parameter))
+            })
+        };
+        of(Role::Channel).chain(of(Role::Impact)).collect()
     }
 
     /// Standard deviations of these errors.
     pub(crate) fn deviations(&self, tolerances: &Tolerances) -> Vec<f64> {
-        let of = |parameter: &Parameter| tolerances.of(parameter.place, parameter.change);
-        self.parameters().iter().map(of).collect()
+        let parameters = self.parameters();
+        let of = parameters
+            .iter()
+            .map(|(_, one)| tolerances.of(one.place, one.change));
+        of.collect()
+    }
+
+    /// The errors of each interface: of its channels, then of its impacts.
+    fn errors_of_each(&self, errors: &[f64]) -> Vec<Vec<f64>> {
+        let mut own: Vec<Vec<f64>> = vec![Vec::new(); self.interfaces.len()];
+        let mut start = 0;
+        for role in [Role::Channel, Role::Impact] {
+            for (own, placed) in own.iter_mut().zip(&self.interfaces) {
+                let count = placed.parameters(role).len();
+                own.extend_from_slice(&errors[start..start + count]);
+                start += count;
+            }
+        }
+        own
+    }
+
+    /// With errors of the set-up, and exact so.
+    pub(crate) fn displaced(&self, errors: &[f64]) -> Result<Self, OfInterface> {
+        let mut own = self.clone();
+        for (placed, errors) in own.interfaces.iter_mut().zip(self.errors_of_each(errors)) {
+            let displaced = placed.interface.displaced(&errors);
+            placed.interface = displaced.map_err(|source| placed.refused(source))?;
+        }
+        Ok(own)
     }
 
     /// The transformations with these errors.
-    pub(crate) fn transformations(
-        &self,
-        errors: &[f64],
-    ) -> Result<Transformations, VirtualPointError> {
-        let (rows, columns) = (self.responses.len(), self.references.len());
-        // zero for what is no channel or impact
-        let wide = |own: &DMatrix<f64>, count: usize| {
-            DMatrix::from_fn(MOTIONS, count, |i, j| {
-                Complex64::from(own.get((i, j)).copied().unwrap_or(0.0))
-            })
+    pub(crate) fn transformations(&self, errors: &[f64]) -> Result<Transformations, OfInterface> {
+        let (rows, columns, motions) =
+            (self.responses.len(), self.references.len(), self.motions());
+        let mut all = Transformations {
+            motions: DMatrix::zeros(motions, rows),
+            loads: DMatrix::zeros(columns, motions),
+            motions_changes: Vec::new(),
+            loads_changes: Vec::new(),
         };
-        let set_up = match &self.interface {
-            Interface::Node => {
+        let errors = self.errors_of_each(errors);
+        for (n, (placed, errors)) in self.interfaces.iter().zip(&errors).enumerate() {
+            let [first_row, first_column] = placed.first;
+            // zero for what is no channel or impact of this interface
+            let by_rows = |own: &DMatrix<f64>| {
+                let mut wide = DMatrix::zeros(motions, rows);
+                let mut place = wide.view_mut((MOTIONS * n, first_row), own.shape());
+                place.copy_from(&own.map(Complex64::from));
+                wide
+            };
+            let by_columns = |own: &DMatrix<f64>| {
+                let mut wide = DMatrix::zeros(columns, motions);
+                let own = own.transpose();
+                let mut place = wide.view_mut((first_column, MOTIONS * n), own.shape());
+                place.copy_from(&own.map(Complex64::from));
+                wide
+            };
+            let Interface::Points(set_up) = &placed.interface else {
                 let own = DMatrix::identity(MOTIONS, MOTIONS);
-                return Ok(Transformations {
-                    motions: wide(&own, rows),
-                    loads: wide(&own, columns).transpose(),
-                    motions_changes: Vec::new(),
-                    loads_changes: Vec::new(),
+                all.motions += by_rows(&own);
+                all.loads += by_columns(&own);
+                continue;
+            };
+            let displaced = set_up.displaced(errors);
+            let point = displaced
+                .and_then(|set_up| VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal))
+                .map_err(|source| placed.refused(source))?;
+            let mut by_channels = point.transformation_derivatives(Role::Channel);
+            let mut by_impacts = point.transformation_derivatives(Role::Impact);
+            let own = by_channels.len();
+            let set_up = point.set_up();
+            let by_vectors = (set_up.channels())
+                .by_rotation_vectors(&mut by_channels, &errors[..own])
+                .and_then(|()| {
+                    let impacts = set_up.impacts();
+                    impacts.by_rotation_vectors(&mut by_impacts, &errors[own..])
                 });
-            }
-            Interface::Points(set_up) => set_up.displaced(errors)?,
-        };
-        let point = VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal)?;
-        let mut by_channels = point.transformation_derivatives(Role::Channel);
-        let mut by_impacts = point.transformation_derivatives(Role::Impact);
-        let own = by_channels.len();
-        let set_up = point.set_up();
-        set_up
-            .channels()
-            .by_rotation_vectors(&mut by_channels, &errors[..own])?;
-        set_up
-            .impacts()
-            .by_rotation_vectors(&mut by_impacts, &errors[own..])?;
-        Ok(Transformations {
-            motions: wide(point.motions_of_channels(), rows),
-            loads: wide(&point.forces_of_loads().transpose(), columns).transpose(),
-            motions_changes: by_channels.iter().map(|by| wide(by, rows)).collect(),
-            loads_changes: by_impacts
-                .iter()
-                .map(|by| wide(by, columns).transpose())
-                .collect(),
-        })
+            by_vectors.map_err(|source| placed.refused(source))?;
+            all.motions += by_rows(point.motions_of_channels());
+            all.loads += by_columns(&point.forces_of_loads().transpose());
+            all.motions_changes.extend(by_channels.iter().map(by_rows));
+            all.loads_changes.extend(by_impacts.iter().map(by_columns));
+        }
+        Ok(all)
+    }
+}
+
+impl Placed {
+    /// With its sensors and impacts, unless it is a node.
+    pub(crate) fn points(&self) -> Option<(&Self, &SetUp)> {
+        match &self.interface {
+            Interface::Node => None,
+            Interface::Points(set_up) => Some((self, set_up)),
+        }
+    }
+
+    pub(crate) fn refused(&self, source: VirtualPointError) -> OfInterface {
+        OfInterface {
+            name: self.name.clone(),
+            source,
+        }
     }
 }

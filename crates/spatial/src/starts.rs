@@ -1,12 +1,21 @@
-//! Where searches begin: the joint line by line where the functions reach all six motions of the interface, and stiffnesses by the
-//! receptance that the joint sees.
+//! Where searches begin: the joints by what they do where the functions reach all of their motions, and stiffnesses by the
+//! receptance that they see.
+//!
+//! The functions are bent in the joints, which gives the search other minima. The loads in the joints follow from the functions
+//! without knowing the joints, and so do the motions; f = D b between them is linear in K and C. Its residuals, weighted by what
+//! they do to the functions, lead near the lowest minimum from afar.
 
-use nalgebra::{DMatrix, DVector, Matrix6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use num_complex::Complex64;
 
-use crate::assembled::{Assembled, Reach};
+use crate::assembled::{Assembled, Open};
+use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
+use crate::fit::covariance;
+use crate::normal::{Deviations, Normal};
+use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
+use crate::side::MOTIONS;
 
 /// Lines that are looked at.
 const LINES: usize = 60;
@@ -14,8 +23,11 @@ const LINES: usize = 60;
 /// Stiffnesses of the starts, in parts of what balances the structures.
 const PARTS: [f64; 5] = [1.0, 0.1, 10.0, 0.01, 100.0];
 
-/// The joint line by line, and in these parts of it.
+/// The joints line by line, and in these parts of it.
 const BESIDE: [f64; 5] = [1.0, 1.5, 0.7, 0.5, 0.3];
+
+/// Rounds in which the weights of the loads follow the joints.
+const ROUNDS: usize = 20;
 
 /// Loss factor of a start.
 const LOSS: f64 = 0.02;
@@ -23,116 +35,263 @@ const LOSS: f64 = 0.02;
 /// Singular values below this part of the largest are none.
 const RANK: f64 = 1e-8;
 
-/// Starts, the likely ones first.
-pub(crate) fn starts(problem: &Problem) -> Result<Vec<Unknowns>, SpatialError> {
-    let none = Unknowns(DVector::zeros(problem.count()));
-    let assembled = Assembled::new(problem, &none)?;
-    let lines = problem.frequency_hz.len();
-    let step = lines.div_ceil(LINES).max(1);
-    let looked_at: Vec<usize> = (0..lines).step_by(step).collect();
-    let mut starts = Vec::new();
-    if let Some(matrices) = line_by_line(problem, &assembled, &looked_at) {
-        for part in BESIDE {
-            starts.extend(of_matrices(problem, matrices.map(|matrix| part * matrix))?);
-        }
-    }
-    // k = 1/|H_ii|, where joint and structures are alike
-    let seen: Vec<Matrix6<Complex64>> = looked_at
-        .iter()
-        .map(|&line| assembled.reach(line).seen)
-        .collect();
-    let middle = problem.omega(lines / 2);
-    for part in PARTS {
-        let stiffness = Matrix6::from_diagonal(&nalgebra::Vector6::from_fn(|i, _| {
-            let mut sizes: Vec<f64> = seen.iter().map(|h| h[(i, i)].norm()).collect();
-            part / median(&mut sizes)
-        }));
-        if stiffness.iter().all(|entry| entry.is_finite()) {
-            let damping = stiffness * (LOSS / middle);
-            starts.extend(of_matrices(problem, [stiffness, damping])?);
-        }
-    }
-    Ok(starts)
-}
+/// Parts of the lines whose loads and motions are balanced apart: every second one, every third one.
+const PARTS_OF_LINES: [usize; 2] = [2, 3];
 
-/// Unknowns nearest to K and C, without errors of the set-up.
-fn of_matrices(
+/// Starts, the likely ones first; each is made when it is asked for.
+pub(crate) fn starts(
     problem: &Problem,
-    matrices: [Matrix6<f64>; 2],
-) -> Result<Option<Unknowns>, SpatialError> {
-    let mut all = DVector::zeros(problem.count());
-    let count = problem.model.count();
-    for (n, matrix) in matrices.iter().enumerate() {
-        let nearest = problem.model.nearest(matrix, problem.length_m)?;
-        for (m, value) in nearest.unknowns.iter().enumerate() {
-            all[n * count + m] = *value;
-        }
-    }
-    let is_finite = all.iter().all(|x: &f64| x.is_finite());
-    Ok(is_finite.then_some(Unknowns(all)))
-}
-
-/// K and C by the medians of D(ω) = X (I − H X)⁻¹, where Y − Y_C = Y Sᵀ X S Y in the observed functions; `None` where these do not
-/// determine X.
-fn line_by_line(
-    problem: &Problem,
-    assembled: &Assembled<'_>,
-    lines: &[usize],
-) -> Option<[Matrix6<f64>; 2]> {
-    let mut found: Vec<[Matrix6<f64>; 2]> = Vec::new();
-    let length = |i: usize| if i < 3 { 1.0 } else { problem.length_m };
-    let [rows, columns] = problem.skips();
-    for &line in lines {
-        let Reach {
-            by_loads,
-            motions,
-            seen: h,
-        } = assembled.reach(line);
-        let alone = |[o, i]: [usize; 2]| match (o < rows, i < columns) {
-            (true, true) => problem.sides[0].lines[line][(o, i)],
-            (false, false) => problem.sides[1].lines[line][(o - rows, i - columns)],
-            _ => Complex64::default(),
-        };
-        // vec Z = (b ⊗ a) vec X over the observed pairs; rotations as lengths, K = ℓ K′ ℓ
-        let design = DMatrix::from_fn(problem.observed.len(), 36, |row, column| {
-            let [o, i] = problem.observed[row].at;
-            let (m, n) = (column % 6, column / 6);
-            by_loads[(o, m)] * motions[(n, i)] * Complex64::from(length(m) * length(n))
-        });
-        let right = DVector::from_fn(problem.observed.len(), |row, _| {
-            let one = &problem.observed[row];
-            alone(one.at) - one.values[line]
-        });
-        let svd = design.svd(true, true);
-        let largest = svd.singular_values.max();
-        if svd.singular_values.len() < 36 || svd.singular_values.min() <= RANK * largest {
-            return None;
-        }
-        let x = svd.solve(&right, 0.0).ok()?;
-        let x = Matrix6::from_fn(|m, n| x[6 * n + m] * Complex64::from(length(m) * length(n)));
-        let inverse = (Matrix6::<Complex64>::identity() - h * x).try_inverse()?;
-        let d = x * inverse;
-        let omega = problem.omega(line);
-        found.push([
-            Matrix6::from_fn(|i, j| 0.5 * (d[(i, j)] + d[(j, i)]).re),
-            Matrix6::from_fn(|i, j| 0.5 * (d[(i, j)] + d[(j, i)]).im / omega),
-        ]);
-    }
-    let of = |part: usize| {
-        let entry = |i: usize, j: usize| {
-            let mut values: Vec<f64> = found.iter().map(|own| own[part][(i, j)]).collect();
-            median(&mut values)
-        };
-        Matrix6::from_fn(|i, j| if i <= j { entry(i, j) } else { entry(j, i) })
+    level: &Deviations,
+) -> Result<impl Iterator<Item = Unknowns> + use<>, SpatialError> {
+    let all = problem.frequency_hz.len();
+    let looked_at: Vec<usize> = (0..all).step_by(all.div_ceil(LINES).max(1)).collect();
+    let problem = problem.with_lines(&looked_at);
+    let open: Vec<Open> = {
+        let assembled = Assembled::without_sought(&problem)?;
+        let lines = 0..looked_at.len();
+        lines
+            .map(|line| assembled.open(line))
+            .collect::<Result<_, _>>()?
     };
-    let matrices = [of(0), of(1)];
-    let is_finite = matrices
-        .iter()
-        .all(|matrix| matrix.iter().all(|x| x.is_finite()));
-    is_finite.then_some(matrices)
+    let mut ways = Vec::new();
+    let loads = Loads::of(&problem, &open, level);
+    if let Some(loads) = &loads {
+        let lines = looked_at.len();
+        let line_by_line = loads.line_by_line(&problem);
+        let nothing = Some(vec![[Matrix6::zeros(); 2]; problem.links.sought().len()]);
+        for from in [&line_by_line, &nothing].into_iter().flatten() {
+            ways.push(Way::Balanced(from.clone(), (0..lines).collect()));
+        }
+        if let Some(from) = &line_by_line {
+            for part in PARTS_OF_LINES {
+                for first in 0..part {
+                    let own = (first..lines).step_by(part).collect();
+                    ways.push(Way::Balanced(from.clone(), own));
+                }
+            }
+            for part in BESIDE {
+                let own = from.iter().map(|own| own.map(|own| part * own));
+                ways.push(Way::At(own.collect()));
+            }
+        }
+    }
+    // k = 1/|H_ii|, where joints and structures are alike
+    let middle = problem.omega(looked_at.len() / 2);
+    for part in PARTS {
+        let of = |joint: usize| {
+            let stiffness = Matrix6::from_diagonal(&Vector6::from_fn(|dof, _| {
+                let i = MOTIONS * joint + dof;
+                let sizes = open.iter().map(|open| open.seen[(i, i)].norm());
+                part / median(sizes.collect())
+            }));
+            [stiffness, stiffness * (LOSS / middle)]
+        };
+        ways.push(Way::At((0..problem.links.sought().len()).map(of).collect()));
+    }
+    Ok(ways.into_iter().filter_map(move |way| match way {
+        Way::At(matrices) => of_matrices(&problem, &matrices),
+        Way::Balanced(from, lines) => {
+            let start = of_matrices(&problem, &from)?;
+            loads.as_ref()?.balanced(&problem, start, &lines)
+        }
+    }))
 }
 
-fn median(values: &mut [f64]) -> f64 {
+/// To a start.
+enum Way {
+    /// K and C of each joint.
+    At(Vec<[Matrix6<f64>; 2]>),
+    /// Loads and motions balanced at these lines, from such.
+    Balanced(Vec<[Matrix6<f64>; 2]>, Vec<usize>),
+}
+
+/// Unknowns nearest to K and C of each joint that is sought, without errors of the set-up.
+fn of_matrices(problem: &Problem, matrices: &[[Matrix6<f64>; 2]]) -> Option<Unknowns> {
+    let mut all = DVector::zeros(problem.count());
+    let joints = problem.links.nearest(matrices).ok()?;
+    all.rows_mut(0, joints.len()).copy_from(&joints);
+    let is_finite = all.iter().all(|x: &f64| x.is_finite());
+    is_finite.then_some(Unknowns(all))
+}
+
+/// Loads in the joints that are sought, and their motions, as the functions have them.
+struct Loads {
+    /// What the functions follow from.
+    lines: Vec<OfLine>,
+    /// How much each function counts; rows × columns, or the other way round.
+    weights: DMatrix<f64>,
+    /// Columns whose rows reach all motions.
+    usable: Vec<usize>,
+    /// What scales each motion: rotations as lengths.
+    scales: Vec<f64>,
+    patterns: Patterns,
+}
+
+/// At one line: Y − Y_C = (Y Sᵀ) f, b = S Y − H f.
+struct OfLine {
+    /// Y Sᵀ: rows × motions.
+    by_loads: DMatrix<Complex64>,
+    /// H
+    seen: DMatrix<Complex64>,
+    /// f: motions × columns.
+    loads: DMatrix<Complex64>,
+    /// b: motions × columns.
+    motions: DMatrix<Complex64>,
+}
+
+impl Loads {
+    /// From the rows of each column, or where these do not reach all motions, from the columns of each row: K and C are
+    /// symmetric.
+    fn of(problem: &Problem, open: &[Open], level: &Deviations) -> Option<Self> {
+        let weights = problem.weights(level);
+        [false, true].into_iter().find_map(|is_transposed| {
+            let turned = |matrix: &DMatrix<Complex64>| match is_transposed {
+                true => matrix.transpose(),
+                false => matrix.clone(),
+            };
+            let mut weights = match is_transposed {
+                true => weights.transpose(),
+                false => weights.clone(),
+            };
+            let sought = problem.links.sought();
+            let scales = problem.links.scales();
+            let scales: Vec<f64> = (sought.iter())
+                .flat_map(|joint| scales[joint.motions()].to_vec())
+                .collect();
+            let rows_of = |column: usize| -> Vec<usize> {
+                let own = weights.column(column);
+                (0..own.len()).filter(|&row| own[row] > 0.0).collect()
+            };
+            let rows: Vec<Vec<usize>> = (0..weights.ncols()).map(rows_of).collect();
+            let usable: Vec<usize> = (0..rows.len())
+                .filter(|&n| rows[n].len() >= scales.len())
+                .collect();
+            let mut lines = Vec::new();
+            for (line, open) in open.iter().enumerate() {
+                let (by_loads, motions) = match is_transposed {
+                    true => (turned(&open.motions), turned(&open.by_loads)),
+                    false => (open.by_loads.clone(), open.motions.clone()),
+                };
+                let mut change = DMatrix::zeros(open.by_loads.nrows(), open.motions.ncols());
+                for (one, function) in problem.observed.iter().zip(&open.functions) {
+                    change[(one.at[0], one.at[1])] = function - one.values[line];
+                }
+                let change = turned(&change);
+                let mut loads = DMatrix::zeros(scales.len(), motions.ncols());
+                for &column in &usable {
+                    let own = &rows[column];
+                    let weights: Vec<f64> = own.iter().map(|&row| weights[(row, column)]).collect();
+                    let inverse = pseudo_inverse(&by_loads.select_rows(own), &weights, &scales)?;
+                    let right = DVector::from_fn(own.len(), |n, _| change[(own[n], column)]);
+                    loads.column_mut(column).copy_from(&(inverse * right));
+                }
+                let seen = turned(&open.seen);
+                lines.push(OfLine {
+                    motions: motions - &seen * &loads,
+                    by_loads,
+                    seen,
+                    loads,
+                });
+            }
+            for column in (0..rows.len()).filter(|column| !usable.contains(column)) {
+                weights.column_mut(column).fill(0.0);
+            }
+            (usable.len() >= scales.len()).then(|| Self {
+                lines,
+                weights,
+                usable,
+                scales,
+                patterns: Patterns::of(problem, None),
+            })
+        })
+    }
+
+    /// K and C of each joint by the medians of D(ω) = X (I − H X)⁻¹ over the lines, where f = X S Y; `None` where the motions do
+    /// not determine X.
+    fn line_by_line(&self, problem: &Problem) -> Option<Vec<[Matrix6<f64>; 2]>> {
+        let mut found: Vec<[DMatrix<f64>; 2]> = Vec::new();
+        for (line, own) in self.lines.iter().enumerate() {
+            let open = (&own.motions + &own.seen * &own.loads).select_columns(&self.usable);
+            let loads = own.loads.select_columns(&self.usable);
+            // X (S Y) = f, column by column
+            let weights: Vec<f64> = (self.usable.iter())
+                .map(|&column| self.weights.column(column).mean())
+                .collect();
+            let inverse = pseudo_inverse(&open.transpose(), &weights, &self.scales)?;
+            let x = loads * inverse.transpose();
+            let unit = DMatrix::identity(x.nrows(), x.nrows());
+            let d = &x * (unit - &own.seen * &x).try_inverse()?;
+            let d = (&d + d.transpose()) * Complex64::from(0.5);
+            let omega = problem.omega(line);
+            found.push([d.map(|x| x.re), d.map(|x| x.im / omega)]);
+        }
+        let of = |joint: usize, part: usize| {
+            Matrix6::from_fn(|i, j| {
+                let at = (MOTIONS * joint + i, MOTIONS * joint + j);
+                median(found.iter().map(|own| own[part][at]).collect())
+            })
+        };
+        let joints = 0..problem.links.sought().len();
+        let matrices: Vec<_> = joints.map(|joint| [of(joint, 0), of(joint, 1)]).collect();
+        let mut all = matrices.iter().flatten();
+        let is_finite = all.all(|matrix| matrix.iter().all(|x| x.is_finite()));
+        is_finite.then_some(matrices)
+    }
+
+    /// K and C for which loads and motions balance over these lines, Σ w |T (f − D b)|² with T = Y Sᵀ (I + D H)⁻¹ of the round
+    /// before: to first order, T is what an error of the balance does to the functions.
+    fn balanced(&self, problem: &Problem, start: Unknowns, lines: &[usize]) -> Option<Unknowns> {
+        let mut unknowns = start;
+        let joints = problem.joint_count();
+        let grid = Grid::new(self.weights.clone());
+        for _ in 0..ROUNDS {
+            let values = (problem.links.sought_matrices(unknowns.0.as_slice())).ok()?;
+            let mut normal = Normal::zeros(joints);
+            for &line in lines {
+                let (own, omega) = (&self.lines[line], problem.omega(line));
+                let dynamic = values[0].zip_map(&values[1], |k, c| Complex64::new(k, omega * c));
+                let count = dynamic.nrows();
+                let opened = DMatrix::identity(count, count) + &dynamic * &own.seen;
+                let by_balance = opened.transpose().lu().solve(&own.by_loads.transpose())?;
+                let by_balance = by_balance.transpose();
+                let group = |joint: usize| Group {
+                    left: by_balance.columns(MOTIONS * joint, MOTIONS).into_owned(),
+                    right: own.motions.rows(MOTIONS * joint, MOTIONS).into_owned(),
+                };
+                let groups: Vec<Group> = (0..count / MOTIONS).map(group).collect();
+                let errors = -(&by_balance * &own.loads);
+                let products = self.patterns.products(&information(&grid, &groups));
+                let slopes = self.patterns.slopes(&descent(&grid, &groups, &errors));
+                normal.add_line(omega, &self.patterns, &products, &slopes);
+            }
+            let values = covariance(&normal.information)? * &normal.descent;
+            unknowns.0.rows_mut(0, joints).copy_from(&values);
+        }
+        let is_finite = unknowns.0.iter().all(|x| x.is_finite());
+        is_finite.then_some(unknowns)
+    }
+}
+
+/// (√W A)⁺ √W; `None` unless its rank is that of its columns.
+fn pseudo_inverse(
+    matrix: &DMatrix<Complex64>,
+    weights: &[f64],
+    scales: &[f64],
+) -> Option<DMatrix<Complex64>> {
+    let (rows, columns) = matrix.shape();
+    let factor = |n: usize, m: usize| weights[n].sqrt() * scales[m];
+    let weighted = DMatrix::from_fn(rows, columns, |n, m| matrix[(n, m)] * factor(n, m));
+    let svd = weighted.svd(true, true);
+    if svd.singular_values.min() <= RANK * svd.singular_values.max() {
+        return None;
+    }
+    let inverse = svd.pseudo_inverse(0.0).ok()?;
+    Some(DMatrix::from_fn(columns, rows, |m, n| {
+        inverse[(m, n)] * factor(n, m)
+    }))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -11,6 +11,7 @@ use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::chain::ChainStudy;
+use crate::links::Links;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
 use crate::tables::{
@@ -38,8 +39,6 @@ pub struct SpatialStudy {
     pub level: Level,
     /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
     pub noise: [f64; 2],
-    /// Tables with the sensors and impacts of both sides of the joint: `a` and `b`, or `b.far` and `c`.
-    pub(crate) names: [String; 2],
     pub(crate) problem: Problem,
 }
 
@@ -69,27 +68,23 @@ impl SpatialStudy {
                 "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`",
             );
         };
-        let noise = reader.noise(&file.noise)?;
-        let (sides, joint) = chain.two_sides()?;
-        let observed = reader.observed(&sides, assembly)?;
+        let (sides, link) = chain.two_sides()?;
+        let observed = reader.observed(&sides, Some(assembly))?;
         let frequency_hz = chain.problem.frequency_hz.clone();
-        let level = reader.level(&file.noise)?;
         Ok(Self {
             path: study.path().to_owned(),
             name: file.name,
             model: chain.models[0].clone(),
             notes: file.notes,
             files: chain.files,
-            level,
-            noise,
-            names: joint.names,
+            level: chain.level,
+            noise: chain.noise,
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, has_places(&sides))?,
+                tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
                 frequency_hz,
                 observed,
-                model: joint.model,
-                length_m: joint.length_m,
+                links: Links(vec![link]),
             },
         })
     }
@@ -99,11 +94,6 @@ impl SpatialStudy {
     pub fn functions(&self) -> usize {
         self.problem.observed.len()
     }
-}
-
-/// Whether anything about a set-up can be wrong.
-fn has_places(sides: &[Side; 2]) -> bool {
-    sides.iter().any(|side| !side.parameters().is_empty())
 }
 
 pub(crate) struct Reader<'s> {
@@ -125,7 +115,7 @@ impl Reader<'_> {
     }
 
     /// Noise of the substructures.
-    fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
+    pub(crate) fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
         let of = |key: &str, given: Option<f64>| {
             let Some(part) = given else {
                 return Ok(0.0);
@@ -250,35 +240,37 @@ impl Reader<'_> {
         })
     }
 
-    /// Every function of the assembly between rows and columns of the substructures.
-    fn observed(&self, sides: &[Side; 2], assembly: &FrfSet) -> Result<Vec<Observed>, StudyError> {
-        let mut observed = Vec::new();
+    /// Every function of the assembly between rows and columns of the parts.
+    pub(crate) fn observed(
+        &self,
+        sides: &[Side; 2],
+        assembly: Option<&FrfSet>,
+    ) -> Result<Vec<Observed>, StudyError> {
         let [a, b] = sides;
         let places = |first: &[Dof], second: &[Dof]| -> Vec<(usize, Dof)> {
             first.iter().chain(second).copied().enumerate().collect()
         };
         let rows = places(&a.responses, &b.responses);
         let columns = places(&a.references, &b.references);
+        let mut observed = Vec::new();
         for &(row, response) in &rows {
             for &(column, reference) in &columns {
-                let Ok(function) = assembly.receptance(response, reference) else {
-                    continue;
-                };
+                let found = assembly.map(|all| all.receptance(response, reference));
                 // the transposed function is another datum only where it was measured
-                if function.is_reciprocal() {
-                    continue;
+                let Some(Ok(function)) = found else { continue };
+                if !function.is_reciprocal() {
+                    observed.push(Observed {
+                        at: [row, column],
+                        values: function.values().to_vec(),
+                    });
                 }
-                observed.push(Observed {
-                    at: [row, column],
-                    values: function.values().to_vec(),
-                });
             }
         }
         self.study.ensure(
             !observed.is_empty(),
             "assembly.frf",
-            "no function between DOFs of a and b",
-            "functions between the sensors, impacts, responses and references of [a] and [b]; points have one number in all files",
+            "no function between DOFs of the parts",
+            "functions between sensors, impacts, responses and references of the parts; points have one number in all files",
         )?;
         Ok(observed)
     }
@@ -343,7 +335,7 @@ impl Reader<'_> {
     pub(crate) fn tolerances(
         &self,
         table: &BudgetTable,
-        has_places: bool,
+        sides: &[Side; 2],
     ) -> Result<Option<Tolerances>, StudyError> {
         let DeviationsTable {
             position,
@@ -367,6 +359,8 @@ impl Reader<'_> {
             rotation_rad: value("rotation", rotation, Tolerance::TYPICAL.rotation_rad)?,
             gain: value("gain", gain, Tolerance::TYPICAL.gain)?,
         };
+        // whether anything about a set-up can be wrong
+        let has_places = sides.iter().any(|side| !side.parameters().is_empty());
         Ok(has_places.then_some(Tolerances {
             sensors: tolerance,
             impacts: tolerance,

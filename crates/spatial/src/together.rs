@@ -38,10 +38,9 @@ pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
     is_stated: bool,
-) -> Result<(Fit, usize, usize), SpatialError> {
+) -> Result<(Fit, [usize; 2]), SpatialError> {
     let thin = problem.thinned(LINES);
-    let mut starts: Vec<(f64, Unknowns)> = starts(&thin)?
-        .into_iter()
+    let mut starts: Vec<(f64, Unknowns)> = starts(&thin, level)?
         .filter_map(|start| Some((cost(&thin, &start, level).ok()?, start)))
         .collect();
     starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -76,7 +75,7 @@ pub(crate) fn together(
     let is_confirmed = agreeing > 1 || explained(&best);
     let mut fit = Fit::from(&problem.thinned(LINES_MAX), best.unknowns, level)?;
     fit.has_converged &= is_confirmed;
-    Ok((fit, tried, agreeing))
+    Ok((fit, [tried, agreeing]))
 }
 
 /// From one start, whose squares are known.

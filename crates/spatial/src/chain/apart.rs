@@ -3,10 +3,10 @@
 use bolted_joint_space::ToldApart;
 use nalgebra::DMatrix;
 
-use crate::chain::assembled::Assembled;
-use crate::chain::problem::{Problem, Unknowns};
+use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::normal::Deviations;
+use crate::problem::{Problem, Unknowns};
 
 /// Two neighbours that are sought.
 #[derive(Clone, Debug)]
@@ -53,13 +53,14 @@ fn triangle(
     let mut triangle = DMatrix::<f64>::zeros(0, count);
     for line in 0..problem.frequency_hz.len() {
         let found = assembled.line(line)?;
+        let derivatives = assembled.derivatives(line, &found);
         let before = triangle.nrows();
         let stacked = DMatrix::from_fn(before + 2 * rows, count, |i, column| {
             if i < before {
                 return triangle[(i, column)];
             }
             let row = (i - before) / 2;
-            let value = found.derivatives[(row, column)] / deviations[row];
+            let value = derivatives[(row, column)] / deviations[row];
             std::f64::consts::SQRT_2
                 * if (i - before) % 2 == 0 {
                     value.re

@@ -5,25 +5,18 @@
 //! identified between two sides, with the known joints coupled into them ([`crate::SpatialStudy`]).
 
 mod apart;
-mod assembled;
 mod estimate;
-mod links;
-mod normal;
 mod part;
 pub(crate) mod plan;
-mod problem;
 mod reader;
 mod reduced;
 mod response;
-mod search;
-mod side;
-mod spread;
-mod starts;
 mod study;
 
 pub use apart::Apart;
 pub use estimate::{ChainIdentification, FoundJoint};
+#[cfg(test)]
+pub(crate) use part::joined;
 pub use plan::{Addition, Aim, Plan, Planned, Reason};
 pub use response::{Answer, Answers};
-pub(crate) use side::OfInterface;
 pub use study::{ChainStudy, joints_sought};

@@ -10,7 +10,7 @@ use bolted_joint_virtual_point::{Impact, Role, Sensor, SetUp, VirtualPointError}
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use crate::chain::side::{Interface, MOTIONS, Placed, Side};
+use crate::side::{Interface, MOTIONS, Placed, Side};
 use crate::study::DIRECTIONS;
 
 /// A function below this part of the largest one of its kind is none: nothing moves.
@@ -358,7 +358,7 @@ pub(crate) fn joined(sides: Vec<Side>) -> Side {
             placed.first = [0, 1].map(|n| placed.first[n] + before[n]);
         }
         for (line, own) in all.lines.iter_mut().zip(&own.lines) {
-            *line = crate::chain::problem::block_diagonal([line, own]);
+            *line = crate::problem::block_diagonal([line, own]);
         }
         all.responses.append(&mut own.responses);
         all.references.append(&mut own.references);

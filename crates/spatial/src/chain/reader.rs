@@ -10,10 +10,10 @@ use bolted_joint_study::{FrequencyTable, StudyError};
 use bolted_joint_virtual_point::Impact;
 use nalgebra::{Matrix6, Vector3};
 
-use super::links::{Link, Numbers};
 use super::part::{Part, PartInterface, Source};
 use super::plan::candidates::{Candidate, Thing};
 use super::response::Scatter;
+use crate::links::{Link, Numbers};
 use crate::study::Reader;
 use crate::tables::{
     CandidatesTable, ExpectedTable, ImpactTable, JointTable, MatricesTable, PartTable, SensorTable,

@@ -4,28 +4,19 @@
 //! carried on; those at the joint that is sought are.
 
 use bolted_joint_frf::Dof;
-use bolted_joint_space::Parametrisation;
 use bolted_joint_study::StudyError;
 use nalgebra::DVector;
 
-use super::assembled::Assembled;
-use super::links::{Link, Links};
 use super::part::{Part, PartInterface};
-use super::problem::{Problem, Unknowns};
 use super::study::{ChainStudy, sides};
-use crate::side::{Interface, Side};
-
-/// The joint between the two sides.
-pub(crate) struct Between {
-    pub(crate) model: Parametrisation,
-    pub(crate) length_m: f64,
-    /// Tables with the sensors and impacts on both sides of it.
-    pub(crate) names: [String; 2],
-}
+use crate::assembled::Assembled;
+use crate::links::{Link, Links};
+use crate::problem::{Problem, Unknowns};
+use crate::side::{Interface, Placed, Side};
 
 impl ChainStudy {
-    /// What is before the joint that is sought, and what is behind it.
-    pub(crate) fn two_sides(&self) -> Result<([Side; 2], Between), StudyError> {
+    /// What is before the joint that is sought, what is behind it, and the joint.
+    pub(crate) fn two_sides(&self) -> Result<([Side; 2], Link), StudyError> {
         let sought = self.problem.links.sought();
         let [joint] = sought.as_slice() else {
             return self.text.refuse(
@@ -42,14 +33,7 @@ impl ChainStudy {
             at,
             true,
         )?;
-        let between = Between {
-            model: joint.model.clone(),
-            length_m: joint.link.length_m,
-            names: [(at, false), (at + 1, true)].map(|(part, is_behind)| {
-                interface_at(&self.parts[part], at, is_behind).name.clone()
-            }),
-        };
-        Ok(([before, behind], between))
+        Ok(([before, behind], joint.link.clone()))
     }
 
     /// Parts with known joints between them, the channels and impacts of one interface first.
@@ -69,13 +53,7 @@ impl ChainStudy {
             .map_or(Interface::Node, Interface::Points);
         let frequency_hz = &self.problem.frequency_hz;
         if parts.len() == 1 {
-            let alone = end.side(&self.text, frequency_hz)?;
-            return Ok(Side {
-                responses: alone.responses,
-                references: alone.references,
-                lines: alone.lines,
-                interface,
-            });
+            return end.side(&self.text, frequency_hz);
         }
         // the other interfaces are at known joints
         let mut parts = parts.to_vec();
@@ -96,22 +74,23 @@ impl ChainStudy {
             let [own_side, skip] = match (place % 2, which) {
                 (0, 0) => [a.responses.len(), 0],
                 (0, _) => [a.references.len(), 0],
-                (_, 0) => [b.responses.len(), a.rows()],
-                (_, _) => [b.references.len(), a.columns()],
+                (_, 0) => [b.responses.len(), a.responses.len()],
+                (_, _) => [b.references.len(), a.references.len()],
             };
             match is_behind {
                 true => skip,
                 false => skip + own_side - parts[place].counts()[which],
             }
         };
-        let order = |which: usize, of_a: usize, skip: usize, of_b: usize| -> Vec<usize> {
+        let order = |which: usize, count: usize| -> Vec<usize> {
             let near = first_of(which)..first_of(which) + own.counts()[which];
-            let all = (0..of_a).chain(skip..skip + of_b);
-            let rest = all.filter(|row| !near.contains(row));
+            let rest = (0..count).filter(|row| !near.contains(row));
             near.clone().chain(rest).collect()
         };
-        let rows = order(0, a.responses.len(), a.rows(), b.responses.len());
-        let columns = order(1, a.references.len(), a.columns(), b.references.len());
+        let responses = [&a.responses[..], &b.responses].concat();
+        let references = [&a.references[..], &b.references].concat();
+        let rows = order(0, responses.len());
+        let columns = order(1, references.len());
         let refused = |source| StudyError::model(self.text.path(), Some("joint"), source);
         let none = Unknowns(DVector::zeros(0));
         let assembled = Assembled::new(&problem, &none).map_err(refused)?;
@@ -121,21 +100,16 @@ impl ChainStudy {
             let all = whole.receptance();
             lines.push(all.select_rows(&rows).select_columns(&columns));
         }
-        let dofs = |[of_a, of_b]: [&[Dof]; 2], skip: usize, order: &[usize]| -> Vec<Dof> {
-            let of = |&row: &usize| {
-                if row < skip {
-                    of_a[row]
-                } else {
-                    of_b[row - skip]
-                }
-            };
-            order.iter().map(of).collect()
-        };
+        let dofs = |all: &[Dof], order: &[usize]| order.iter().map(|&n| all[n]).collect();
         Ok(Side {
-            responses: dofs([&a.responses, &b.responses], a.rows(), &rows),
-            references: dofs([&a.references, &b.references], a.columns(), &columns),
+            responses: dofs(&responses, &rows),
+            references: dofs(&references, &columns),
             lines,
-            interface,
+            interfaces: vec![Placed {
+                name: own.name.clone(),
+                first: [0, 0],
+                interface,
+            }],
         })
     }
 }

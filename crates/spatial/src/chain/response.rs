@@ -7,12 +7,12 @@ use bolted_joint_space::{Coupled, Entry, Part as Matrix};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use crate::chain::assembled::Assembled;
-use crate::chain::links::{Link, Links, Numbers};
+use crate::assembled::Assembled;
 use crate::chain::part::Part;
-use crate::chain::problem::{Problem, Unknowns};
 use crate::chain::study::ChainStudy;
 use crate::error::SpatialError;
+use crate::links::{Link, Links, Numbers};
+use crate::problem::{Problem, Unknowns};
 
 /// One function of an assembly.
 #[derive(Clone, Debug)]
@@ -173,24 +173,20 @@ impl ChainStudy {
         let elsewhere = |of: fn(&Part) -> &Vec<Dof>| -> Vec<Dof> {
             self.parts.iter().flat_map(of).copied().collect()
         };
-        let of = |own: &[Dof], skip: usize, other: &[Dof], wanted: &[Dof]| -> Vec<(Dof, usize)> {
-            let all = own.iter().copied().enumerate();
-            let other = other.iter().copied().enumerate();
-            let all = all.chain(other.map(|(n, dof)| (skip + n, dof)));
+        let of = |own: &[Dof], other: &[Dof], wanted: &[Dof]| -> Vec<(Dof, usize)> {
             let is_wanted = |dof: &Dof| wanted.is_empty() || wanted.contains(dof);
+            let all = own.iter().chain(other).copied().enumerate();
             all.map(|(n, dof)| (dof, n))
                 .filter(|(dof, _)| is_wanted(dof))
                 .collect()
         };
         let rows = of(
             &a.responses,
-            a.rows(),
             &b.responses,
             &elsewhere(|part| &part.responses),
         );
         let columns = of(
             &a.references,
-            a.columns(),
             &b.references,
             &elsewhere(|part| &part.references),
         );

@@ -7,13 +7,12 @@ use bolted_joint_joint::InputFile;
 use bolted_joint_study::{Method, StudyError, StudyText, input_file};
 use nalgebra::Matrix6;
 
-use super::links::{Links, Numbers};
 use super::part::{Part, Source, file_of, joined};
 use super::plan::candidates::Candidate;
-use super::problem::{Observed, Problem};
 use super::response::Scatter;
-use super::side::Side;
-use crate::problem::Level;
+use crate::links::{Links, Numbers};
+use crate::problem::{Level, Observed, Problem};
+use crate::side::Side;
 use crate::study::{Reader, model_name};
 use crate::tables::StudyFile;
 
@@ -34,6 +33,8 @@ pub struct ChainStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
+    /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
+    pub noise: [f64; 2],
     pub(crate) text: StudyText,
     pub(crate) parts: Vec<Part>,
     pub(crate) problem: Problem,
@@ -121,11 +122,13 @@ impl ChainStudy {
             links.push(link);
         }
         let level = reader.level(&file.noise)?;
-        // their noise takes part where two measured structures are joined by one joint
-        let is_plain = file.joint.len() == 1 && file.assembly.frf.is_some();
-        for (key, given) in [("noise.a", file.noise.a), ("noise.b", file.noise.b)] {
-            if let Some(part) = given.filter(|_| !is_plain) {
-                let expected = "none for chains and plans: they take the noise of the assembly's functions alone";
+        // their noise takes part where two structures are joined by one joint
+        let noise = reader.noise(&file.noise)?;
+        let is_chain = file.joint.len() > 1;
+        for (key, part) in [("noise.a", noise[0]), ("noise.b", noise[1])] {
+            if is_chain && part > 0.0 {
+                let expected =
+                    "none for chains: they take the noise of the assembly's functions alone";
                 return study.refuse(key, part, expected);
             }
         }
@@ -169,9 +172,10 @@ impl ChainStudy {
             notes: file.notes,
             files,
             level,
+            noise,
             text: study.clone(),
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, has_places(&sides))?,
+                tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
                 frequency_hz,
                 observed: Vec::new(),
@@ -186,40 +190,10 @@ impl ChainStudy {
         })
     }
 
-    /// What was measured of the assembly, between rows and columns of both sides with their interfaces.
+    /// What was measured of the assembly.
     pub(crate) fn observed(&self) -> Result<Vec<Observed>, StudyError> {
-        let [a, b] = &self.problem.sides;
-        let places = |first: &[Dof], skip: usize, second: &[Dof]| -> Vec<(usize, Dof)> {
-            let own = first.iter().copied().enumerate();
-            let other = second.iter().copied().enumerate();
-            own.chain(other.map(|(n, dof)| (skip + n, dof))).collect()
-        };
-        let rows = places(&a.responses, a.rows(), &b.responses);
-        let columns = places(&a.references, a.columns(), &b.references);
-        let mut observed = Vec::new();
-        for &(row, response) in &rows {
-            for &(column, reference) in &columns {
-                let found = self
-                    .assembly
-                    .as_ref()
-                    .map(|all| all.receptance(response, reference));
-                // the transposed function is another datum only where it was measured
-                let Some(Ok(function)) = found else { continue };
-                if !function.is_reciprocal() {
-                    observed.push(Observed {
-                        at: [row, column],
-                        values: function.values().to_vec(),
-                    });
-                }
-            }
-        }
-        self.text.ensure(
-            !observed.is_empty(),
-            "assembly.frf",
-            "no function between DOFs of the parts",
-            "functions between sensors, impacts, responses and references of the parts; points have one number in all files",
-        )?;
-        Ok(observed)
+        let reader = Reader { study: &self.text };
+        reader.observed(&self.problem.sides, self.assembly.as_ref())
     }
 
     /// How many joints are sought.
@@ -227,11 +201,6 @@ impl ChainStudy {
     pub fn sought(&self) -> usize {
         self.problem.links.sought().len()
     }
-}
-
-/// Whether anything about a set-up can be wrong.
-fn has_places(sides: &[Side; 2]) -> bool {
-    sides.iter().any(|side| !side.parameters().is_empty())
 }
 
 /// How many joints of a study are sought, and not known.

@@ -3,8 +3,8 @@
 use bolted_joint_virtual_point::Place;
 use nalgebra::DMatrix;
 
-use crate::chain::problem::Problem;
 use crate::fit::covariance;
+use crate::problem::Problem;
 
 /// Information on an error of the set-up that is known, in parts of what there is.
 const KNOWN: f64 = 1e9;
@@ -15,6 +15,8 @@ pub(crate) struct Spread {
     pub(crate) all: DMatrix<f64>,
     /// Of noise alone.
     pub(crate) by_noise: DMatrix<f64>,
+    /// That of the joints and of the errors of the set-up together.
+    pub(crate) together: DMatrix<f64>,
     /// What each kind of errors of the set-up adds by itself.
     pub(crate) groups: Vec<(String, DMatrix<f64>)>,
 }
@@ -28,7 +30,15 @@ impl Spread {
         by_noise: DMatrix<f64>,
     ) -> Option<Self> {
         let (count, errors) = (problem.joint_count(), problem.error_count());
-        let all = covariance(information)?;
+        if errors == 0 {
+            return Some(Self {
+                all: by_noise.clone(),
+                together: by_noise.clone(),
+                by_noise,
+                groups: Vec::new(),
+            });
+        }
+        let together = covariance(information)?;
         // θ follows η by −F_θθ⁻¹ F_θη
         let own = information.view((0, 0), (count, count)).into_owned();
         let follows = covariance(&own)? * information.view((0, count), (count, errors));
@@ -36,7 +46,7 @@ impl Spread {
             let moved = &follows * all.view((count, count), (errors, errors));
             &by_noise + moved * follows.transpose()
         };
-        let joint = with(&all);
+        let joint = with(&together);
         let groups = groups(problem)
             .into_iter()
             .map(|(name, columns)| {
@@ -53,6 +63,7 @@ impl Spread {
         Some(Self {
             all: joint,
             by_noise,
+            together,
             groups,
         })
     }

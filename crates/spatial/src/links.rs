@@ -1,5 +1,7 @@
 //! The joints of an assembly: which are sought, which are known, and how their unknowns stand in a row.
 
+use std::ops::Range;
+
 use bolted_joint_space::{Entry, Parametrisation, Part, SpaceError};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
@@ -46,6 +48,18 @@ impl Links {
         MOTIONS * self.0.len()
     }
 
+    /// What scales each of these: 1 for translations, the joint's length for rotations, m.
+    pub(crate) fn scales(&self) -> Vec<f64> {
+        let of = |link: &Link| [1.0, 1.0, 1.0, link.length_m, link.length_m, link.length_m];
+        self.0.iter().flat_map(of).collect()
+    }
+
+    /// The size of the largest joint, m.
+    pub(crate) fn length_m(&self) -> f64 {
+        let lengths = self.0.iter().map(|link| link.length_m);
+        lengths.fold(0.0, f64::max)
+    }
+
     /// Those that are sought. The unknowns of a joint are those of its stiffness, then those of its damping.
     pub(crate) fn sought(&self) -> Vec<Sought<'_>> {
         let mut first = 0;
@@ -72,20 +86,9 @@ impl Links {
 
     /// K and C of all joints.
     pub(crate) fn matrices(&self, values: &[f64]) -> Result<[DMatrix<f64>; 2], SpaceError> {
-        let mut all = [(); 2].map(|()| DMatrix::zeros(self.motions(), self.motions()));
-        let mut put = |number: usize, own: [Matrix6<f64>; 2]| {
-            for (all, own) in all.iter_mut().zip(own.iter()) {
-                all.view_mut((MOTIONS * number, MOTIONS * number), (MOTIONS, MOTIONS))
-                    .copy_from(own);
-            }
-        };
-        for (number, link) in self.0.iter().enumerate() {
-            if let Numbers::Known(own) = &link.numbers {
-                put(number, **own);
-            }
-        }
+        let mut all = self.known();
         for one in self.sought() {
-            put(one.number, one.matrices(values)?);
+            put(&mut all, one.number, &one.matrices(values)?);
         }
         Ok(all)
     }
@@ -95,13 +98,21 @@ impl Links {
         let mut all = [(); 2].map(|()| DMatrix::zeros(self.motions(), self.motions()));
         for (number, link) in self.0.iter().enumerate() {
             if let Numbers::Known(own) = &link.numbers {
-                for (all, own) in all.iter_mut().zip(own.iter()) {
-                    all.view_mut((MOTIONS * number, MOTIONS * number), (MOTIONS, MOTIONS))
-                        .copy_from(own);
-                }
+                put(&mut all, number, own);
             }
         }
         all
+    }
+
+    /// K and C of those that are sought, one after the other on the diagonal.
+    pub(crate) fn sought_matrices(&self, values: &[f64]) -> Result<[DMatrix<f64>; 2], SpaceError> {
+        let sought = self.sought();
+        let count = MOTIONS * sought.len();
+        let mut all = [(); 2].map(|()| DMatrix::zeros(count, count));
+        for (number, one) in sought.iter().enumerate() {
+            put(&mut all, number, &one.matrices(values)?);
+        }
+        Ok(all)
     }
 
     /// The unknowns nearest to K and C of the joints that are sought.
@@ -134,6 +145,11 @@ impl Links {
 }
 
 impl Sought<'_> {
+    /// Its motions among those of all joints.
+    pub(crate) fn motions(&self) -> Range<usize> {
+        MOTIONS * self.number..MOTIONS * (self.number + 1)
+    }
+
     /// Its unknowns among all.
     pub(crate) fn of<'v>(&self, values: &'v [f64]) -> &'v [f64] {
         &values[self.first..self.first + 2 * self.model.count()]
@@ -149,6 +165,14 @@ impl Sought<'_> {
     pub(crate) fn names(&self) -> Vec<String> {
         let of = |part| self.model.names(part);
         [of(Part::Stiffness), of(Part::Damping)].concat()
+    }
+}
+
+/// K and C of one joint in their place among those of all.
+fn put(all: &mut [DMatrix<f64>; 2], number: usize, own: &[Matrix6<f64>; 2]) {
+    for (all, own) in all.iter_mut().zip(own) {
+        let at = MOTIONS * number;
+        all.view_mut((at, at), (MOTIONS, MOTIONS)).copy_from(own);
     }
 }
 

@@ -1,0 +1,288 @@
+//! How the unknowns are made of dyads, and what the sums over dyads say of the unknowns.
+//!
+//! A number of a joint stands at some of the 36 entries of its matrix, and an error of a sensor or an impact changes the
+//! transformation of its interface: both are weighted sums of dyads, with weights that no line changes. So the lines are summed
+//! first, and the weights applied once.
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use crate::assembled::{Assembled, Line};
+use crate::dyads::Group;
+use crate::links::Sought;
+use crate::normal::Normal;
+use crate::problem::Problem;
+
+/// One unknown's dyads, θ_pq at p·right + q of its group, counted through all groups, and their weights.
+#[derive(Clone, Debug)]
+pub(crate) struct Pattern(Vec<(usize, f64)>);
+
+/// Where what a pattern does belongs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Places {
+    /// The unknown of stiffness and that of damping: ∂D/∂k and ∂D/∂c = jω ∂D/∂k.
+    OfJoint([usize; 2]),
+    /// An error of a set-up.
+    OfSetUp(usize),
+}
+
+/// Those of all unknowns.
+pub(crate) struct Patterns {
+    of_joints: Vec<Pattern>,
+    places: Vec<[usize; 2]>,
+    of_set_up: Vec<Pattern>,
+    /// The first error's unknown.
+    first_error: usize,
+}
+
+impl Pattern {
+    /// What the unknown does to the function of a row and a column.
+    pub(crate) fn of(&self, groups: &[Group], [row, column]: [usize; 2]) -> Complex64 {
+        let mut sum = Complex64::default();
+        for &(place, weight) in &self.0 {
+            let mut own = place;
+            for group in groups {
+                let width = group.right.nrows();
+                let count = group.left.ncols() * width;
+                if own < count {
+                    let (p, q) = (own / width, own % width);
+                    sum += weight * group.left[(row, p)] * group.right[(q, column)];
+                    break;
+                }
+                own -= count;
+            }
+        }
+        sum
+    }
+}
+
+impl Line {
+    /// a and b, the dyads of every change of the joints that are sought.
+    pub(crate) fn dyads(&self, problem: &Problem) -> Vec<Group> {
+        let of = |joint: &Sought<'_>| Group {
+            left: self
+                .by_joint_loads
+                .columns_range(joint.motions())
+                .into_owned(),
+            right: self.joint_motions.rows_range(joint.motions()).into_owned(),
+        };
+        problem.links.sought().iter().map(of).collect()
+    }
+}
+
+/// Sums over lines of M = Σ w conj(∂f/∂θ) ∂f/∂θ′ for all pairs of dyads, as far as the unknowns need them.
+#[derive(Default)]
+pub(crate) struct Sums {
+    /// Σ Re M
+    flat: DMatrix<f64>,
+    /// Σ ω Im M, rows of the joints' dyads.
+    tilted: DMatrix<f64>,
+    /// Σ ω² Re M of the joints' dyads.
+    curved: DMatrix<f64>,
+    /// Σ Re s, s = Σ w conj(∂f/∂θ) e.
+    slopes: DVector<f64>,
+    /// Σ ω Im s of the joints' dyads.
+    tilted_slopes: DVector<f64>,
+    squares: f64,
+}
+
+impl Sums {
+    /// A line with M and s; the first dyads are those of the joints.
+    pub(crate) fn add_line(
+        &mut self,
+        omega: f64,
+        of_joints: usize,
+        products: &DMatrix<Complex64>,
+        slopes: &DVector<Complex64>,
+        squares: f64,
+    ) {
+        let own = products.rows(0, of_joints);
+        self.add(&Self {
+            flat: products.map(|sum| sum.re),
+            tilted: own.map(|sum| omega * sum.im),
+            curved: own.columns(0, of_joints).map(|sum| omega * omega * sum.re),
+            slopes: slopes.map(|sum| sum.re),
+            tilted_slopes: slopes.rows(0, of_joints).map(|sum| omega * sum.im),
+            squares,
+        });
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        if self.slopes.is_empty() {
+            self.flat = other.flat.clone();
+            self.tilted = other.tilted.clone();
+            self.curved = other.curved.clone();
+            self.slopes = other.slopes.clone();
+            self.tilted_slopes = other.tilted_slopes.clone();
+            self.squares = other.squares;
+            return;
+        }
+        self.flat += &other.flat;
+        self.tilted += &other.tilted;
+        self.curved += &other.curved;
+        self.slopes += &other.slopes;
+        self.tilted_slopes += &other.tilted_slopes;
+        self.squares += other.squares;
+    }
+}
+
+impl Patterns {
+    /// Of the joints that are sought; with the errors of the set-up where they are unknown and the assembly is given.
+    pub(crate) fn of(problem: &Problem, assembled: Option<&Assembled<'_>>) -> Self {
+        let (mut of_joints, mut places) = (Vec::new(), Vec::new());
+        let sought = problem.links.sought();
+        for (number, joint) in sought.iter().enumerate() {
+            let count = joint.model.count();
+            for (n, basis) in joint.model.bases().iter().enumerate() {
+                let own = (0..36)
+                    .map(|place| (36 * number + place, basis[(place / 6, place % 6)]))
+                    .filter(|(_, factor)| *factor != 0.0);
+                of_joints.push(Pattern(own.collect()));
+                places.push([joint.first + n, joint.first + count + n]);
+            }
+        }
+        let mut of_set_up = Vec::new();
+        if let Some(assembled) = assembled.filter(|_| problem.tolerances.is_some()) {
+            let mut first = 36 * sought.len();
+            let counts = problem.sides.iter().flat_map(|side| {
+                let [rows, columns] = [side.responses.len(), side.references.len()];
+                [rows, columns].map(|own| own * problem.motions())
+            });
+            for (changes, count) in assembled.changes().zip(counts) {
+                for change in changes {
+                    // θ_pq at p·right + q: row by row
+                    let width = change.ncols();
+                    let own = (0..count)
+                        .map(|place| (first + place, change[(place / width, place % width)].re))
+                        .filter(|(_, factor)| *factor != 0.0);
+                    of_set_up.push(Pattern(own.collect()));
+                }
+                first += count;
+            }
+        }
+        Self {
+            of_joints,
+            places,
+            of_set_up,
+            first_error: problem.joint_count(),
+        }
+    }
+
+    /// All, with where they belong.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (Places, &Pattern)> {
+        let places = self.places.iter().copied().map(Places::OfJoint);
+        let of_set_up = self.of_set_up.iter().enumerate();
+        let of_set_up = of_set_up.map(|(n, own)| (Places::OfSetUp(self.first_error + n), own));
+        places.zip(&self.of_joints).chain(of_set_up)
+    }
+
+    /// Jᴴ Σ⁻¹ J and Jᴴ Σ⁻¹ e: of ∂Y_C/∂k = −dyads, ∂Y_C/∂c = −jω dyads, ∂Y_C/∂η = dyads.
+    pub(crate) fn normal(&self, count: usize, sums: &Sums) -> Normal {
+        let mut normal = Normal::zeros(count);
+        normal.cost = sums.squares;
+        let (joints, errors) = (&self.of_joints, &self.of_set_up);
+        let flat = combined(joints, &sums.flat, joints);
+        let tilted = combined(joints, &sums.tilted, joints);
+        let curved = combined(joints, &sums.curved, joints);
+        for (k, &[stiffness, damping]) in self.places.iter().enumerate() {
+            for (l, &[other, of_other]) in self.places.iter().enumerate() {
+                normal.information[(stiffness, other)] = 2.0 * flat[(k, l)];
+                normal.information[(stiffness, of_other)] = -2.0 * tilted[(k, l)];
+                normal.information[(damping, other)] = 2.0 * tilted[(k, l)];
+                normal.information[(damping, of_other)] = 2.0 * curved[(k, l)];
+            }
+            normal.descent[stiffness] = -2.0 * joints[k].sum(&sums.slopes);
+            normal.descent[damping] = -2.0 * joints[k].sum(&sums.tilted_slopes);
+        }
+        let flat = combined(joints, &sums.flat, errors);
+        let tilted = combined(joints, &sums.tilted, errors);
+        let own = combined(errors, &sums.flat, errors);
+        for (n, error) in errors.iter().enumerate() {
+            let place = self.first_error + n;
+            for (k, &[stiffness, damping]) in self.places.iter().enumerate() {
+                for (row, value) in [(stiffness, flat[(k, n)]), (damping, tilted[(k, n)])] {
+                    normal.information[(row, place)] = -2.0 * value;
+                    normal.information[(place, row)] = -2.0 * value;
+                }
+            }
+            for m in 0..errors.len() {
+                normal.information[(place, self.first_error + m)] = 2.0 * own[(n, m)];
+            }
+            normal.descent[place] = 2.0 * error.sum(&sums.slopes);
+        }
+        normal
+    }
+
+    /// Eᵀ M E of sums over the 36 entries.
+    pub(crate) fn products(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+        let half = self.columns(sums);
+        DMatrix::from_fn(self.of_joints.len(), self.of_joints.len(), |k, l| {
+            let own = self.of_joints[k].0.iter();
+            own.map(|(place, factor)| *factor * half[(*place, l)]).sum()
+        })
+    }
+
+    /// M E.
+    pub(crate) fn columns(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+        DMatrix::from_fn(sums.nrows(), self.of_joints.len(), |row, l| {
+            let own = self.of_joints[l].0.iter();
+            own.map(|(place, factor)| *factor * sums[(row, *place)])
+                .sum()
+        })
+    }
+
+    /// Eᵀ v.
+    pub(crate) fn slopes(&self, sums: &DVector<Complex64>) -> DVector<Complex64> {
+        let own = self.of_joints.iter().map(|pattern| {
+            let terms = pattern.0.iter();
+            terms.map(|(place, factor)| *factor * sums[*place]).sum()
+        });
+        DVector::from_iterator(self.of_joints.len(), own)
+    }
+}
+
+impl Pattern {
+    fn sum(&self, sums: &DVector<f64>) -> f64 {
+        let terms = self.0.iter();
+        terms.map(|&(place, factor)| factor * sums[place]).sum()
+    }
+}
+
+/// Eᵀ M E′
+fn combined(rows: &[Pattern], sums: &DMatrix<f64>, columns: &[Pattern]) -> DMatrix<f64> {
+    let mut half = DMatrix::zeros(sums.nrows(), columns.len());
+    for (l, column) in columns.iter().enumerate() {
+        for &(place, factor) in &column.0 {
+            half.column_mut(l).axpy(factor, &sums.column(place), 1.0);
+        }
+    }
+    DMatrix::from_fn(rows.len(), columns.len(), |k, l| {
+        let own = rows[k].0.iter();
+        own.map(|&(place, factor)| factor * half[(place, l)]).sum()
+    })
+}
+
+impl Normal {
+    /// The information and descent of a line, by Jᴴ Σ⁻¹ J and Jᴴ Σ⁻¹ e of −J_k = a ∂K/∂k b: C's derivatives are jω times K's.
+    pub(crate) fn add_line(
+        &mut self,
+        omega: f64,
+        patterns: &Patterns,
+        products: &DMatrix<Complex64>,
+        slopes: &DVector<Complex64>,
+    ) {
+        let places = &patterns.places;
+        for (k, &[stiffness, damping]) in places.iter().enumerate() {
+            for (l, &[other, of_other]) in places.iter().enumerate() {
+                let product = 2.0 * products[(k, l)];
+                self.information[(stiffness, other)] += product.re;
+                self.information[(stiffness, of_other)] -= omega * product.im;
+                self.information[(damping, other)] += omega * product.im;
+                self.information[(damping, of_other)] += omega * omega * product.re;
+            }
+            let slope = 2.0 * slopes[k];
+            self.descent[stiffness] -= slope.re;
+            self.descent[damping] -= omega * slope.im;
+        }
+    }
+}

@@ -1,6 +1,10 @@
 //! Tables of variables, generated from `modelDescription/*.xml`, the table of DOFs and the laws of the joint.
 
-use std::fmt;
+mod listed;
+
+pub(crate) use listed::{FIRST_LISTED, ListedVariables};
+
+use std::{borrow::Cow, fmt, sync::Arc};
 
 use bolted_joint_dynamics::{
     DOF_COUNT, DOFS, SPACE, SPACE_COUNT,
@@ -12,13 +16,16 @@ use bolted_joint_dynamics::{
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
+/// Name of a variable: one that the build knows, or one that a start-value file has given.
+pub(crate) type Name = Cow<'static, str>;
+
 /// One variable of an FMU.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Variable {
     /// Structured name.
-    pub(crate) name: &'static str,
+    pub(crate) name: Name,
     /// Coherent SI unit.
-    pub(crate) unit: &'static str,
+    pub(crate) unit: Name,
     /// What it is to the library.
     pub(crate) role: Role,
     /// Start value that the FMU has before its start-value file and the importer set others; 0 for what is calculated.
@@ -124,6 +131,8 @@ pub(crate) enum Role {
     Parameter,
     /// Continuous input.
     Input,
+    /// Continuous input that cannot have every value.
+    LimitedInput,
     /// Continuous state, exposed as an output.
     State,
     /// Calculated output.
@@ -140,12 +149,19 @@ pub(crate) enum Role {
 }
 
 impl Role {
+    /// Whether it is an input.
+    pub(crate) const fn is_input(self) -> bool {
+        matches!(self, Self::Input | Self::LimitedInput)
+    }
+
     /// Its bit in a [`Roles`] set. The calculated local variables share one.
-    const fn bit(self) -> u8 {
+    const fn bit(self) -> u16 {
         match self {
             Self::Independent => 1,
             Self::Parameter => 2,
             Self::Input => 4,
+            // in no set of roles by itself
+            Self::LimitedInput => 4 | LIMITED,
             Self::State => 8,
             Self::Output => 16,
             Self::Derivative | Self::Indicator => 32,
@@ -160,7 +176,7 @@ impl fmt::Display for Role {
         f.write_str(match self {
             Self::Independent => "the independent variable",
             Self::Parameter => "a parameter",
-            Self::Input => "an input",
+            Self::Input | Self::LimitedInput => "an input",
             Self::State => "a state",
             Self::Output => "a calculated output",
             Self::Derivative => "a calculated derivative",
@@ -173,7 +189,12 @@ impl fmt::Display for Role {
 
 /// A set of roles; empty for a value reference that the FMU does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Roles(u8);
+pub(crate) struct Roles(u16);
+
+/// Beside the bits of roles: an input that is limited.
+const LIMITED: u16 = 256;
+/// Beside the bits of roles: what is calculated apart from other outputs, because it takes longer and few ask for it.
+const APART: u16 = 512;
 
 impl Roles {
     /// No role at all.
@@ -189,6 +210,11 @@ impl Roles {
         }
         Self(bits)
     }
+
+    /// Inputs that cannot have every value.
+    pub(crate) const LIMITED: Self = Self(LIMITED);
+    /// What is calculated apart from other outputs.
+    pub(crate) const APART: Self = Self(APART);
 
     /// Both sets together.
     pub(crate) const fn with(self, other: Self) -> Self {
@@ -264,6 +290,11 @@ const fn is_further(index: usize) -> bool {
         row += 1;
     }
     false
+}
+
+/// Whether a value of this index is remembered beside the variables.
+pub(crate) fn is_beside(index: usize) -> bool {
+    (REFERENCE_COUNT..VALUE_COUNT).contains(&index)
 }
 
 /// What is remembered of a joint over the preload, or with memory, beside its variables, as indices.
@@ -343,7 +374,7 @@ impl InterfaceType {
     }
 }
 
-/// Which of the two FMUs.
+/// Which of the FMUs whose variables the build knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// The joint alone: motion in, loads out.
@@ -489,7 +520,7 @@ pub(crate) fn declared(reference: usize) -> Option<&'static Variable> {
 /// Variables that one FMU has: a table of its kind, without those of DOFs that its joint does not have, and without those that
 /// only other kinds of joints have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Variables {
+pub(crate) struct BuiltVariables {
     /// Which of the two FMUs.
     pub(crate) kind: Kind,
     /// Degrees of freedom of its joint.
@@ -498,7 +529,7 @@ pub(crate) struct Variables {
     pub(crate) dependence: Dependence,
 }
 
-impl Variables {
+impl BuiltVariables {
     /// The variable with this value reference, if the FMU has one.
     pub(crate) fn get(self, reference: usize) -> Option<&'static Variable> {
         let table = match self.kind {
@@ -515,59 +546,133 @@ impl Variables {
             })
     }
 
+    /// Continuous states, in the order of the model structure, of all joints.
+    const fn states(self) -> &'static [ContinuousState] {
+        match self.kind {
+            Kind::Element => ELEMENT_STATES,
+            Kind::Lap => LAP_STATES,
+        }
+    }
+
+    /// Value references of the event indicators, in the order of the model structure, of all joints.
+    const fn indicators(self) -> &'static [usize] {
+        match self.kind {
+            Kind::Element => ELEMENT_INDICATORS,
+            Kind::Lap => LAP_INDICATORS,
+        }
+    }
+}
+
+/// The variables that an FMU has.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Variables {
+    /// Those of an element or a lap: tables of the build have them.
+    Built(BuiltVariables),
+    /// Those of an assembly: its start-value file lists them.
+    Listed(Arc<ListedVariables>),
+}
+
+impl Variables {
+    /// The variable with this value reference, if the FMU has one.
+    pub(crate) fn get(&self, reference: usize) -> Option<&Variable> {
+        match self {
+            Self::Built(built) => built.get(reference),
+            Self::Listed(listed) => listed.get(reference),
+        }
+    }
+
     /// All variables with their value references, in ascending order.
-    pub(crate) fn iter(self) -> impl Iterator<Item = (usize, &'static Variable)> {
-        (0..REFERENCE_COUNT).filter_map(move |reference| Some((reference, self.get(reference)?)))
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &Variable)> {
+        let [first, second] = match self {
+            Self::Built(_) => [0..REFERENCE_COUNT, 0..0],
+            Self::Listed(listed) => listed.references(),
+        };
+        let all = first.chain(second);
+        all.filter_map(|reference| Some((reference, self.get(reference)?)))
     }
 
     /// Continuous states, in the order of the model structure.
-    pub(crate) fn continuous_states(self) -> impl Iterator<Item = &'static ContinuousState> {
-        let states = match self.kind {
-            Kind::Element => ELEMENT_STATES,
-            Kind::Lap => LAP_STATES,
+    pub(crate) fn continuous_states(&self) -> impl Iterator<Item = &ContinuousState> {
+        let states = match self {
+            Self::Built(built) => built.states(),
+            Self::Listed(listed) => listed.states(),
         };
-        states.iter().filter(move |state| {
-            let has = |reference| self.get(reference).is_some();
-            has(state.reference) && has(state.derivative)
-        })
+        let has = |reference| self.get(reference).is_some();
+        let of_joint =
+            move |state: &&ContinuousState| has(state.reference) && has(state.derivative);
+        states.iter().filter(of_joint)
     }
 
     /// Value references of the event indicators, in the order of the model structure.
-    pub(crate) fn event_indicators(self) -> impl Iterator<Item = usize> {
-        let indicators = match self.kind {
-            Kind::Element => ELEMENT_INDICATORS,
-            Kind::Lap => LAP_INDICATORS,
+    pub(crate) fn event_indicators(&self) -> impl Iterator<Item = usize> {
+        let indicators = match self {
+            Self::Built(built) => built.indicators(),
+            Self::Listed(listed) => listed.indicators(),
         };
-        let has = move |reference: &usize| self.get(*reference).is_some();
+        let has = |reference: &usize| self.get(*reference).is_some();
         indicators.iter().copied().filter(has)
     }
 
     /// Name of the variable with this value reference, for messages.
-    pub(crate) fn name(self, reference: usize) -> &'static str {
+    pub(crate) fn name(&self, reference: usize) -> Name {
         self.get(reference)
-            .map_or("(no variable)", |variable| variable.name)
+            .map_or(Name::Borrowed("(no variable)"), |variable| {
+                variable.name.clone()
+            })
     }
 
     /// Role of each value reference, up to the last that there is.
-    pub(crate) fn roles(self) -> Box<[Roles]> {
+    pub(crate) fn roles(&self) -> Box<[Roles]> {
         let count = self.iter().last().map_or(0, |(last, _)| last + 1);
         let role = |index| {
-            self.get(index)
-                .map_or(Roles::NONE, |variable| Roles::of(&[variable.role]))
+            self.get(index).map_or(Roles::NONE, |variable| {
+                let own = Roles::of(&[variable.role]);
+                match index {
+                    reference::ENERGY_STORED | reference::POWER_DISSIPATED => {
+                        own.with(Roles::APART)
+                    }
+                    reference::PRELOAD => own.with(Roles::LIMITED),
+                    _ if self.is_apart(index) => own.with(Roles::APART),
+                    _ => own,
+                }
+            })
         };
         (0..count).map(role).collect()
     }
 
+    /// Whether a variable of an assembly is calculated apart from other outputs.
+    fn is_apart(&self, index: usize) -> bool {
+        matches!(self, Self::Listed(listed) if listed.is_apart(index))
+    }
+
+    /// Whether there are outputs that are calculated apart.
+    pub(crate) fn has_some_apart(&self) -> bool {
+        match self {
+            Self::Built(built) => built.dependence.remembers(),
+            Self::Listed(_) => true,
+        }
+    }
+
+    /// How many inputs there are that the start-value file lists, before all else that it lists.
+    pub(crate) fn listed_inputs(&self) -> usize {
+        match self {
+            Self::Built(_) => 0,
+            Self::Listed(listed) => listed.input_count(),
+        }
+    }
+
     /// Start values of the model description.
-    pub(crate) fn start(self) -> Values {
+    pub(crate) fn start(&self) -> Values {
         let mut values = Values::at_rest(self);
         for (reference, variable) in self.iter() {
             values[reference] = variable.start;
         }
-        // nothing moves these masses, but they are divided by
-        for row in self.dofs.at_rest() {
-            for side in [&reference::A_INERTIA, &reference::B_INERTIA] {
-                values[side[row]] = 1.0;
+        if let Self::Built(built) = self {
+            // nothing moves these masses, but they are divided by
+            for row in built.dofs.at_rest() {
+                for side in [&reference::A_INERTIA, &reference::B_INERTIA] {
+                    values[side[row]] = 1.0;
+                }
             }
         }
         values

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
-    interface::{Role, Roles, Values, memory},
+    interface::{Name, Role, Roles, Values, memory},
     refusal::Refusal,
     values::Inner,
 };
@@ -112,7 +112,7 @@ impl Instance {
         &self,
         references: &[u32],
         allowed: Roles,
-        refusal: impl Fn(&'static str, Role) -> Refusal,
+        refusal: impl Fn(Name, Role) -> Refusal,
     ) -> Result<(), Refusal> {
         for &reference in references {
             let (index, roles) = self.known(reference)?;

@@ -7,7 +7,7 @@ use bolted_joint_dynamics::law::Declaration;
 use bolted_joint_joint::{DofSet, Joint, JointFile};
 
 /// First line of the file.
-const HEADER: &str = "bolted-joint-start/1";
+pub(super) const HEADER: &str = "bolted-joint-start/1";
 
 /// The parameters as the file lists them, one `name value` on each line.
 pub fn parameter_lines(parameters: &[(String, f64)]) -> String {

@@ -414,6 +414,21 @@ impl Values {
         &mut self.joint
     }
 
+    /// What event indicators follow from, of each DOF that has some.
+    pub(crate) fn all_ahead(&self) -> &[Ahead] {
+        &self.ahead
+    }
+
+    /// The same to be written, beside what the start-value file lists and what laws remember.
+    pub(crate) fn parts_mut(&mut self) -> (&mut [f64], &mut [DofMemory], &mut [Ahead]) {
+        (&mut self.listed, &mut self.joint, &mut self.ahead)
+    }
+
+    /// Whether what the joint remembers follows from the start values.
+    pub(crate) fn are_starting(&self) -> bool {
+        self.inner == Inner::Starting
+    }
+
     /// What is remembered of the joint, as numbers.
     pub(crate) fn remembered(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());

@@ -66,7 +66,8 @@ impl Instance {
     fn present(&self) -> Values {
         let mut values = self.values.clone();
         values[memory::PRELOAD_RATE] = self.preload_rate();
-        if self.begins() && values.are_integrated() {
+        let remembers_from_start = values.are_integrated() || !values.listed().is_empty();
+        if self.begins() && remembers_from_start {
             values.set_inner(Inner::Starting);
         }
         values

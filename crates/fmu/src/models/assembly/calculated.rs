@@ -1,12 +1,22 @@
 //! What is calculated of an assembly, for any kind of number.
 
 use bolted_joint_dynamics::{
-    DofMemory, Number,
+    DOF_AT_REST, DofLaws, DofMemory, Number,
     assembly::{AssemblyMotion, Matrix},
+    law::INNER_PLACES,
 };
 
 use super::AssemblyLayout;
 use crate::assembly_file::AssemblyFile;
+
+/// What laws remember follows from there.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum From {
+    /// The simulation begins, and they have come straight to where it does.
+    Start,
+    /// Their inner states are among the variables.
+    Variables,
+}
 
 /// Writes what is calculated of an assembly among what the start-value file lists.
 #[derive(Clone, Copy)]
@@ -55,11 +65,68 @@ impl Calculated<'_> {
         *energy = assembly.stored_energy(motion, memory);
         *supplied = assembly.supplied_power(motion.rates, loads);
         *dissipated = assembly.dissipated_power(motion, memory);
-        let accelerations = &mut rest[..layout.accelerations.len()];
+        let (accelerations, rest) = rest.split_at_mut(layout.accelerations.len());
         assembly.accelerations(motion, loads, joint_loads, accelerations);
+        let (inner_rates, _) = rest.split_at_mut(layout.inner_rates.len());
+        let mut shown = inner_rates.iter_mut().zip(&layout.inner_states).peekable();
+        let mut dof = 0;
+        assembly.each_law(motion, |laws, _, rate| {
+            if laws.have_inner() {
+                let laws = DofLaws::<N>::new(laws.parameters().map(N::from));
+                let rates = laws.inner_rates(&memory[dof].map(Into::into), rate);
+                while let Some((own, shown)) = shown.next_if(|(_, shown)| shown.dof == dof) {
+                    let place = INNER_PLACES.iter().position(|&place| place == shown.place);
+                    *own = place.map_or(N::ZERO, |place| rates[place]);
+                }
+            }
+            dof += 1;
+        });
     }
 
-    fn motion<'n, N>(&self, states: &'n [N]) -> AssemblyMotion<'n, N> {
+    /// Writes the inner states where they follow from the start values.
+    pub(super) fn write_inner<N: Number>(&self, listed: &mut [N], memory: &[DofMemory<N>]) {
+        let inner = &mut listed[self.layout.inner.clone()];
+        for (own, shown) in inner.iter_mut().zip(&self.layout.inner_states) {
+            *own = memory[shown.dof][shown.place];
+        }
+    }
+
+    /// What laws remember where the importer integrates their inner states, or where they begin with the simulation; from
+    /// `committed`.
+    pub(super) fn memory<N: Number>(
+        &self,
+        listed: &[N],
+        committed: &[DofMemory],
+        from: From,
+    ) -> Vec<DofMemory<N>> {
+        let layout = self.layout;
+        let mut memory: Vec<DofMemory<N>> = match from {
+            From::Start => vec![DOF_AT_REST.map(N::from); committed.len()],
+            From::Variables => committed.iter().map(|own| own.map(N::from)).collect(),
+        };
+        if let From::Variables = from {
+            for (&state, shown) in listed[layout.inner.clone()].iter().zip(&layout.inner_states) {
+                memory[shown.dof][shown.place] = state;
+            }
+        }
+        let mut all = memory.iter_mut();
+        self.file.assembly.each_law(self.motion(listed), |laws, r, rate| {
+            let Some(own) = all.next() else { return };
+            let laws = DofLaws::<N>::new(laws.parameters().map(N::from));
+            match from {
+                From::Variables => laws.settle(own, r, rate),
+                From::Start => {
+                    laws.commit(own, r, rate);
+                    if !own.iter().all(|number| number.is_finite()) {
+                        *own = DOF_AT_REST.map(N::from);
+                    }
+                }
+            }
+        });
+        memory
+    }
+
+    pub(super) fn motion<'n, N>(&self, states: &'n [N]) -> AssemblyMotion<'n, N> {
         AssemblyMotion {
             coordinates: &states[self.layout.coordinates.clone()],
             rates: &states[self.layout.rates.clone()],

@@ -4,6 +4,7 @@
 mod calculated;
 mod layout;
 mod lengths;
+mod memory;
 
 pub(crate) use layout::AssemblyLayout;
 
@@ -138,15 +139,33 @@ impl Model for AssemblyModel {
 
     fn differentiate_parameters(&self, _: &Values, _: &mut Values) {}
 
+    fn begin(&self, values: &mut Values) {
+        memory::begin(self.calculated(), values);
+    }
+
+    fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
+        memory::commit(self.calculated(), values, time_s)
+    }
+
+    fn pass_event(&self, values: &mut Values) {
+        memory::look_ahead(self.calculated(), values, true);
+    }
+
     fn calculate_outputs(&self, values: &mut Values) {
-        let (listed, memory) = values.listed_beside_memory();
-        self.calculated().write(listed, memory);
-        self.calculated().write_apart(listed, memory);
+        let calculated = self.calculated();
+        let present = memory::present(calculated, values);
+        let (listed, committed) = values.listed_beside_memory();
+        let memory = present.as_deref().unwrap_or(committed);
+        calculated.write(listed, memory);
+        calculated.write_apart(listed, memory);
+        memory::write_indicators(calculated, values);
     }
 
     fn calculate_loads(&self, values: &mut Values, _: bool) -> bool {
-        let (listed, memory) = values.listed_beside_memory();
-        self.calculated().write(listed, memory);
+        let calculated = self.calculated();
+        let present = memory::present(calculated, values);
+        let (listed, committed) = values.listed_beside_memory();
+        calculated.write(listed, present.as_deref().unwrap_or(committed));
         false
     }
 
@@ -159,18 +178,31 @@ impl Model for AssemblyModel {
         to[layout.coordinates.clone()].copy_from_slice(&from[layout.rates.clone()]);
         to[layout.rates.clone()].copy_from_slice(&from[layout.accelerations.clone()]);
         to[layout.energies.clone()].copy_from_slice(&from[layout.powers.clone()]);
+        to[layout.inner.clone()].copy_from_slice(&from[layout.inner_rates.clone()]);
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
+        let calculated = self.calculated();
         let pairs = values.listed().iter().zip(change.listed());
         let mut listed: Vec<Dual<1>> = pairs
             .map(|(&value, &change)| Dual::new(value, [change]))
             .collect();
-        self.calculated().write(&mut listed, values.memories());
-        self.calculated()
-            .write_apart(&mut listed, values.memories());
+        match memory::present_change(calculated, values, &listed) {
+            Some(memory) => {
+                if values.are_starting() {
+                    calculated.write_inner(&mut listed, &memory);
+                }
+                calculated.write(&mut listed, &memory);
+                calculated.write_apart(&mut listed, &memory);
+            }
+            None => {
+                calculated.write(&mut listed, values.memories());
+                calculated.write_apart(&mut listed, values.memories());
+            }
+        }
         for (change, own) in change.listed_mut().iter_mut().zip(&listed) {
             *change = own.change[0];
         }
+        memory::write_indicator_changes(calculated, values, change);
     }
 }

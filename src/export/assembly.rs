@@ -19,7 +19,8 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         ("--extrapolate", arguments.extrapolate),
     ] {
         if given {
-            let expected = "none: it is for a joint file; an assembly file says all of its joints itself";
+            let expected =
+                "none: it is for a joint file; an assembly file says all of its joints itself";
             return Err(CliError::option(option, "it", expected));
         }
     }
@@ -33,17 +34,19 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         allow_unusable: arguments.unusable,
         date: Timestamp::from_environment()?,
     };
-    let exported = assembly_fmu(&model, text.text(), &options).map_err(|source| {
-        CliError::Unexportable {
+    let exported =
+        assembly_fmu(&model, text.text(), &options).map_err(|source| CliError::Unexportable {
             path: arguments.joint_file.clone(),
             source,
-        }
-    })?;
+        })?;
     exported.packed.write(&arguments.output)?;
     warn(&model.warnings);
     for joint in &model.joints {
         for reason in joint.file.reasons_against() {
-            message(&format!("warning: joint {} is not to be relied on: {reason}", joint.name));
+            message(&format!(
+                "warning: joint {} is not to be relied on: {reason}",
+                joint.name
+            ));
         }
         for matrix in joint.file.passivity().active() {
             message(&format!(
@@ -53,13 +56,19 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         }
     }
     if arguments.json {
-        return print(&serde_json::to_string_pretty(&as_json(&exported, arguments))?);
+        return print(&serde_json::to_string_pretty(&as_json(
+            &exported, arguments,
+        ))?);
     }
     print(&summary(&exported, &model, arguments))
 }
 
 /// What was written, in five lines.
-fn summary(exported: &ExportedAssembly, model: &AssemblyModel, arguments: &ExportArguments) -> String {
+fn summary(
+    exported: &ExportedAssembly,
+    model: &AssemblyModel,
+    arguments: &ExportArguments,
+) -> String {
     let packed = &exported.packed;
     let libraries = packed.libraries.iter();
     let platforms: Vec<&str> = libraries.map(|library| library.platform.as_str()).collect();

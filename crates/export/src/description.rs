@@ -2,8 +2,8 @@
 
 use bolted_joint_interface::{Expanded, Interface as Checked, Joints, Rows};
 use fmi_schema::fmi3::{
-    Causality, DefaultExperiment, DependenciesKind, Float64Type, Fmi3ModelDescription, Fmi3Unknown, FmiFloat64,
-    TypeDefinition, Variable, VariableDependency,
+    Causality, DefaultExperiment, DependenciesKind, Float64Type, Fmi3ModelDescription, Fmi3Unknown,
+    FmiFloat64, TypeDefinition, Variable, VariableDependency,
 };
 use fmi_schema::traits::FmiModelDescription as _;
 use fmi_schema::utils::AttrList;
@@ -71,9 +71,7 @@ impl Description {
             let types = types.into_iter().map(TypeDefinition::Float64);
             definitions.type_definitions.extend(types);
         }
-        let is_time = |variable: &Variable| {
-            matches!(variable, Variable::Float64(own) if own.causality == Some(Causality::Independent))
-        };
+        let is_time = |variable: &Variable| matches!(variable, Variable::Float64(own) if own.causality == Some(Causality::Independent));
         let all = &mut tree.model_variables.variables;
         all.retain(is_time);
         all.extend(listed.into_iter().map(Variable::Float64));

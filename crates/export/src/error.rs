@@ -155,7 +155,9 @@ pub enum ExportError {
         taken: String,
     },
     /// Two variables of an assembly's FMU that have one name.
-    #[error("`{one}` and `{other}`: both give the FMU a variable {variable}, expected different names; rename one of them")]
+    #[error(
+        "`{one}` and `{other}`: both give the FMU a variable {variable}, expected different names; rename one of them"
+    )]
     SameName {
         /// The variable.
         variable: String,

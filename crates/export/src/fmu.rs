@@ -9,8 +9,8 @@ use super::assets::pictures;
 use super::declared::kind;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
-use super::parameters::start_value;
 use super::package::{Entry, Packed, packed};
+use super::parameters::start_value;
 use super::platforms::Library;
 use super::reference_run::ReferenceRun;
 use super::start_file::{laws_line, parameter_lines, start_file, table_lines};
@@ -288,7 +288,13 @@ fn fmu(
         escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
         passivity,
         reasons_against: subject.source().reasons_against().to_vec(),
-        packed: packed(files, platforms, &library_name, options.version, options.date)?,
+        packed: packed(
+            files,
+            platforms,
+            &library_name,
+            options.version,
+            options.date,
+        )?,
     })
 }
 

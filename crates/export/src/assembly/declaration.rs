@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use fmi_schema::fmi3::{
-    Causality, DependenciesKind, Float64Type, Fmi3ModelDescription, TypeDefinition, Fmi3Unknown, FmiFloat64, Initial, Variability,
-    VariableDependency,
+    Causality, DependenciesKind, Float64Type, Fmi3ModelDescription, Fmi3Unknown, FmiFloat64,
+    Initial, TypeDefinition, Variability, VariableDependency,
 };
 use fmi_schema::utils::AttrList;
 
@@ -35,7 +35,10 @@ fn variable(place: usize, own: &Listed, tree: &Fmi3ModelDescription) -> FmiFloat
         TypeOf::OfLap(name) => match of_lap(name) {
             Some(other) => {
                 let told = other.description.clone().unwrap_or_default();
-                (other.declared_type.clone(), format!("{}: {told}", own.description))
+                (
+                    other.declared_type.clone(),
+                    format!("{}: {told}", own.description),
+                )
             }
             None => (None, own.description.clone()),
         },
@@ -77,7 +80,10 @@ pub(super) fn types(list: &List, tree: &Fmi3ModelDescription) -> Vec<Float64Type
             TypeOf::Named(_) | TypeOf::OfLap(_) => None,
         })
         .collect();
-    let definitions = tree.type_definitions.iter().flat_map(|all| &all.type_definitions);
+    let definitions = tree
+        .type_definitions
+        .iter()
+        .flat_map(|all| &all.type_definitions);
     let known: Vec<&Float64Type> = definitions
         .filter_map(|definition| match definition {
             TypeDefinition::Float64(own) => Some(own),
@@ -114,7 +120,9 @@ pub(super) fn unknowns(list: &List) -> Vec<VariableDependency> {
     }
     for [_, place] in list.states() {
         let on = &list.variables[place].on;
-        all.push(VariableDependency::ContinuousStateDerivative(unknown(place, on)));
+        all.push(VariableDependency::ContinuousStateDerivative(unknown(
+            place, on,
+        )));
     }
     let initial = |own: &Listed| matches!(own.role, Role::Output | Role::Inner | Role::Derivative);
     for (place, own) in variables().filter(|(_, own)| initial(own)) {
@@ -132,6 +140,8 @@ fn unknown(place: usize, on: &[usize]) -> Fmi3Unknown {
         annotations: None,
         value_reference: reference(place),
         dependencies: Some(AttrList(on.iter().map(|&own| reference(own)).collect())),
-        dependencies_kind: Some(AttrList(on.iter().map(|_| DependenciesKind::Dependent).collect())),
+        dependencies_kind: Some(AttrList(
+            on.iter().map(|_| DependenciesKind::Dependent).collect(),
+        )),
     }
 }

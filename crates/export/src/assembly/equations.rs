@@ -45,7 +45,11 @@ pub(super) fn equation_lines(model: &AssemblyModel, assembly: &Assembly) -> Stri
     let mut text = String::new();
     let size = assembly.size();
     line!(text, "coordinates {size}");
-    line!(text, "{}", numbers(assembly.frequencies_rad_per_s.iter().copied()));
+    line!(
+        text,
+        "{}",
+        numbers(assembly.frequencies_rad_per_s.iter().copied())
+    );
     let damping = &assembly.damping_per_s;
     let upper = (0..size).flat_map(|i| (i..size).map(move |j| (i, j)));
     let entries: Vec<_> = upper.filter(|&place| damping[place] != 0.0).collect();

@@ -25,13 +25,25 @@ pub(super) fn suggested(model: &AssemblyModel, assembly: &Assembly) -> Experimen
         kept.extend(own.filter(|&omega| omega > 0.0).map(|omega| omega / TAU));
         first += structure.form.size();
     }
-    let fastest = kept.iter().copied().reduce(f64::max).unwrap_or(WITHOUT_MODES_HZ);
-    let slowest = kept.iter().copied().reduce(f64::min).unwrap_or(WITHOUT_MODES_HZ);
+    let fastest = kept
+        .iter()
+        .copied()
+        .reduce(f64::max)
+        .unwrap_or(WITHOUT_MODES_HZ);
+    let slowest = kept
+        .iter()
+        .copied()
+        .reduce(f64::min)
+        .unwrap_or(WITHOUT_MODES_HZ);
     let step_s = round(1.0 / (STEPS_A_PERIOD * fastest));
     let stop_s = round((PERIODS / slowest).min(MOST_STEPS * step_s));
     Experiment {
         // of 1, 2 and 5 times powers of ten the larger is a multiple of the smaller, unless they are 5 and 2 times the same one
-        stop_s: if stop_s / step_s < 10.0 { 10.0 * step_s } else { stop_s },
+        stop_s: if stop_s / step_s < 10.0 {
+            10.0 * step_s
+        } else {
+            stop_s
+        },
         communication_step_s: step_s,
     }
 }
@@ -40,6 +52,12 @@ pub(super) fn suggested(model: &AssemblyModel, assembly: &Assembly) -> Experimen
 fn round(value: f64) -> f64 {
     let exponent = value.log10().floor() as i32;
     let mantissa = value / 10.0_f64.powi(exponent) * (1.0 + 1e-12);
-    let digit = if mantissa >= 5.0 { 5 } else if mantissa >= 2.0 { 2 } else { 1 };
+    let digit = if mantissa >= 5.0 {
+        5
+    } else if mantissa >= 2.0 {
+        2
+    } else {
+        1
+    };
     format!("{digit}e{exponent}").parse().unwrap_or(value)
 }

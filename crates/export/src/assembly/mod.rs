@@ -11,12 +11,12 @@ use std::path::PathBuf;
 use bolted_joint_assembly::AssemblyModel;
 use bolted_joint_joint::Passivity;
 
+use super::archive::File;
 use super::description::{self, Description};
 use super::documentation;
 use super::package::{Packed, packed};
-use super::token::token;
-use super::archive::File;
 use super::start_file::HEADER;
+use super::token::token;
 use super::{ExportError, FmiVersion, Timestamp};
 use variables::List;
 
@@ -87,12 +87,15 @@ pub fn assembly_fmu(
     let declared = description.declared()?;
     let of = |place: usize| {
         let reference = declaration::FIRST_REFERENCE + place as u32;
-        declared.variables.iter().find(move |own| own.reference == reference)
+        declared
+            .variables
+            .iter()
+            .find(move |own| own.reference == reference)
     };
     let unit = |place: usize| of(place).map_or_else(String::new, |own| own.unit.clone());
     let nominal = |place: usize| of(place).map_or(1.0, |own| own.nominal);
-    let resources = equations::list_lines(&list, unit, nominal)
-        + &equations::equation_lines(model, &assembly);
+    let resources =
+        equations::list_lines(&list, unit, nominal) + &equations::equation_lines(model, &assembly);
     let library_name = description.model_identifier();
     let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;
@@ -100,15 +103,24 @@ pub fn assembly_fmu(
         File::text(description::FILE, xml),
         File::text(
             "resources/start.txt",
-            format!("{HEADER}\nmodel {}\ntoken {token}\n{resources}", equations::MODEL),
+            format!(
+                "{HEADER}\nmodel {}\ntoken {token}\n{resources}",
+                equations::MODEL
+            ),
         ),
         File::text("resources/assembly.toml", source_toml),
     ];
     for joint in &model.joints {
-        let text = joint.file.to_json().map_err(|_| bolted_joint_joint::LawError::Invalid {
-            problems: joint.file.validate(),
-        })?;
-        files.push(File::text(&format!("resources/{}.joint.json", joint.name), text));
+        let text = joint
+            .file
+            .to_json()
+            .map_err(|_| bolted_joint_joint::LawError::Invalid {
+                problems: joint.file.validate(),
+            })?;
+        files.push(File::text(
+            &format!("resources/{}.joint.json", joint.name),
+            text,
+        ));
     }
     files.extend(documentation::licences());
     let _ = &declared;

@@ -13,14 +13,15 @@ const TAKEN: [&str; 4] = ["time", "modal", "energy", "power"];
 /// Refuses names that are no words of structured names, and two variables of one name.
 pub(super) fn check(model: &AssemblyModel) -> Result<(), ExportError> {
     let mut owners: BTreeMap<String, String> = BTreeMap::new();
-    let mut add = |variable: String, owner: &str| match owners.insert(variable.clone(), owner.to_owned()) {
-        None => Ok(()),
-        Some(other) => Err(ExportError::SameName {
-            variable,
-            one: other,
-            other: owner.to_owned(),
-        }),
-    };
+    let mut add =
+        |variable: String, owner: &str| match owners.insert(variable.clone(), owner.to_owned()) {
+            None => Ok(()),
+            Some(other) => Err(ExportError::SameName {
+                variable,
+                one: other,
+                other: owner.to_owned(),
+            }),
+        };
     for joint in &model.joints {
         let owner = format!("joints: name = \"{}\"", joint.name);
         check_word(&owner, &joint.name)?;

@@ -161,7 +161,13 @@ struct Maker<'m> {
 }
 
 impl Maker<'_> {
-    fn add(&mut self, name: String, role: Role, declared_type: TypeOf, description: String) -> &mut Listed {
+    fn add(
+        &mut self,
+        name: String,
+        role: Role,
+        declared_type: TypeOf,
+        description: String,
+    ) -> &mut Listed {
         let place = self.variables.len();
         self.variables.push(Listed {
             name,
@@ -186,7 +192,12 @@ impl Maker<'_> {
                 load(dof.kind),
                 place(model, input)
             );
-            self.add(name, Role::Input, TypeOf::Named(load_type(dof.kind)), description);
+            self.add(
+                name,
+                Role::Input,
+                TypeOf::Named(load_type(dof.kind)),
+                description,
+            );
         }
     }
 
@@ -224,9 +235,17 @@ impl Maker<'_> {
         }
         for (name, description) in [
             ("energy.supplied", "Work of the loads since the start"),
-            ("energy.dissipated", "Heat from structures and joints since the start"),
+            (
+                "energy.dissipated",
+                "Heat from structures and joints since the start",
+            ),
         ] {
-            let own = self.add(name.to_owned(), Role::State, TypeOf::Named("Energy"), description.to_owned());
+            let own = self.add(
+                name.to_owned(),
+                Role::State,
+                TypeOf::Named("Energy"),
+                description.to_owned(),
+            );
             own.is_output = true;
         }
     }
@@ -249,9 +268,16 @@ impl Maker<'_> {
         let rows = model.output_rows();
         for (row, output) in model.outputs.iter().enumerate() {
             let dof = letters(output);
-            let own: Vec<usize> = (0..places.size).filter(|&i| rows[(row, i)] != 0.0).collect();
+            let own: Vec<usize> = (0..places.size)
+                .filter(|&i| rows[(row, i)] != 0.0)
+                .collect();
             for (name, declared_type, what, of) in [
-                (dof.name, displacement_type(dof.kind), displacement(dof.kind), Places::q as fn(_, _) -> _),
+                (
+                    dof.name,
+                    displacement_type(dof.kind),
+                    displacement(dof.kind),
+                    Places::q as fn(_, _) -> _,
+                ),
                 (dof.rate, rate_type(dof.kind), rate(dof.kind), Places::v),
             ] {
                 let description = format!("{what} of {}", place(model, output));
@@ -259,7 +285,12 @@ impl Maker<'_> {
                 let on: Vec<usize> = own.iter().map(|&i| of(places, i)).collect();
                 let displacement = self.variables.len() - 1;
                 let is_rate = declared_type == rate_type(dof.kind);
-                let listed = self.add(name, Role::Output, TypeOf::Named(declared_type), description);
+                let listed = self.add(
+                    name,
+                    Role::Output,
+                    TypeOf::Named(declared_type),
+                    description,
+                );
                 listed.derivative_of = is_rate.then_some(displacement);
                 listed.on.clone_from(&on);
                 listed.initially_on = on;
@@ -278,7 +309,12 @@ impl Maker<'_> {
                     load(dof.kind),
                     joint.name
                 );
-                let own = self.add(name, Role::Output, TypeOf::Named(load_type(dof.kind)), description);
+                let own = self.add(
+                    name,
+                    Role::Output,
+                    TypeOf::Named(load_type(dof.kind)),
+                    description,
+                );
                 own.on.clone_from(&on);
                 own.initially_on.clone_from(&on);
             }
@@ -348,7 +384,9 @@ impl Maker<'_> {
         let name = of_joint(&joint.name, &declared);
         let listed = self.add(name, role, TypeOf::OfLap(declared), description);
         listed.initially_on = coordinates.iter().map(|&i| places.q(i)).collect();
-        listed.initially_on.extend(coordinates.iter().map(|&i| places.v(i)));
+        listed
+            .initially_on
+            .extend(coordinates.iter().map(|&i| places.v(i)));
     }
 
     fn energies(&mut self) {
@@ -382,7 +420,12 @@ impl Maker<'_> {
                 "Power that structures and joints turn into heat",
             ),
         ] {
-            let own = self.add(name.to_owned(), Role::Output, TypeOf::Named(declared_type), description.to_owned());
+            let own = self.add(
+                name.to_owned(),
+                Role::Output,
+                TypeOf::Named(declared_type),
+                description.to_owned(),
+            );
             own.derivative_of = energy.map(|which| places.energy(which));
             own.on.clone_from(&on);
             own.initially_on = on;
@@ -391,15 +434,25 @@ impl Maker<'_> {
 
     fn accelerations(&mut self) {
         let (places, assembly) = (self.places, self.assembly);
-        let joints: Vec<BTreeSet<usize>> =
-            (0..assembly.joints.len()).map(|joint| self.coordinates_of(joint)).collect();
+        let joints: Vec<BTreeSet<usize>> = (0..assembly.joints.len())
+            .map(|joint| self.coordinates_of(joint))
+            .collect();
         for i in 0..places.size {
-            let mut on: BTreeSet<usize> =
-                (0..places.loads).filter(|&load| assembly.loads[(i, load)] != 0.0).collect();
+            let mut on: BTreeSet<usize> = (0..places.loads)
+                .filter(|&load| assembly.loads[(i, load)] != 0.0)
+                .collect();
             on.insert(places.q(i));
             let damping = &assembly.damping_per_s;
-            on.extend((0..places.size).filter(|&j| damping[(i, j)] != 0.0).map(|j| places.v(j)));
-            for (joint, _) in joints.iter().enumerate().filter(|(_, own)| own.contains(&i)) {
+            on.extend(
+                (0..places.size)
+                    .filter(|&j| damping[(i, j)] != 0.0)
+                    .map(|j| places.v(j)),
+            );
+            for (joint, _) in joints
+                .iter()
+                .enumerate()
+                .filter(|(_, own)| own.contains(&i))
+            {
                 on.extend(self.of_joint(joint));
             }
             let own = self.add(
@@ -543,5 +596,7 @@ fn rate_type(kind: DofKind) -> &'static str {
 
 /// A number with so many digits that it can be told.
 fn short(number: f64) -> String {
-    format!("{:.4e}", number).parse::<f64>().map_or_else(|_| number.to_string(), |short| short.to_string())
+    format!("{:.4e}", number)
+        .parse::<f64>()
+        .map_or_else(|_| number.to_string(), |short| short.to_string())
 }

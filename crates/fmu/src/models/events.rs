@@ -21,7 +21,11 @@ const NO_CORNER: f64 = 1.0;
 const AT_REST: Ahead = [0.0, 0.0, f64::MAX];
 
 /// Indicators of a DOF at this relative displacement and rate: of a turn, and of a corner ahead.
-pub(super) fn indicators_on(&[direction, speed, corner]: &Ahead, r: f64, velocity: f64) -> [f64; 2] {
+pub(super) fn indicators_on(
+    &[direction, speed, corner]: &Ahead,
+    r: f64,
+    velocity: f64,
+) -> [f64; 2] {
     let ahead = match corner {
         f64::MAX => NO_CORNER,
         corner => direction * (corner - r),

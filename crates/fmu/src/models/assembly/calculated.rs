@@ -105,24 +105,29 @@ impl Calculated<'_> {
             From::Variables => committed.iter().map(|own| own.map(N::from)).collect(),
         };
         if let From::Variables = from {
-            for (&state, shown) in listed[layout.inner.clone()].iter().zip(&layout.inner_states) {
+            for (&state, shown) in listed[layout.inner.clone()]
+                .iter()
+                .zip(&layout.inner_states)
+            {
                 memory[shown.dof][shown.place] = state;
             }
         }
         let mut all = memory.iter_mut();
-        self.file.assembly.each_law(self.motion(listed), |laws, r, rate| {
-            let Some(own) = all.next() else { return };
-            let laws = DofLaws::<N>::new(laws.parameters().map(N::from));
-            match from {
-                From::Variables => laws.settle(own, r, rate),
-                From::Start => {
-                    laws.commit(own, r, rate);
-                    if !own.iter().all(|number| number.is_finite()) {
-                        *own = DOF_AT_REST.map(N::from);
+        self.file
+            .assembly
+            .each_law(self.motion(listed), |laws, r, rate| {
+                let Some(own) = all.next() else { return };
+                let laws = DofLaws::<N>::new(laws.parameters().map(N::from));
+                match from {
+                    From::Variables => laws.settle(own, r, rate),
+                    From::Start => {
+                        laws.commit(own, r, rate);
+                        if !own.iter().all(|number| number.is_finite()) {
+                            *own = DOF_AT_REST.map(N::from);
+                        }
                     }
                 }
-            }
-        });
+            });
         memory
     }
 

@@ -38,5 +38,8 @@ pub use package::{Entry, Packed};
 pub use parameters::start_value;
 pub use platforms::{EMBEDDED_LIBRARY, EMBEDDED_PLATFORM, Library, LibrarySource};
 pub use provenance::provenance;
-pub use start_file::{StartFile, dofs_text, laws_line, parameter_lines, table_lines};
+pub use start_file::{
+    AssemblyStartFile, ListedVariable, StartFile, dofs_text, laws_line, parameter_lines,
+    table_lines,
+};
 pub use step::{StepChoice, StepSize};

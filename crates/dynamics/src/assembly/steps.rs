@@ -70,12 +70,20 @@ impl AssemblySteps {
         let ladder = Ladder::new(&system, length_s)?;
         let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
         Some(Self {
-            // h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
-            largest_angle: ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).sqrt().sqrt(),
+            largest_angle: largest_angle(tolerance),
             system,
             ladder,
             scratch,
         })
+    }
+
+    /// The same steps with another tolerance.
+    #[must_use]
+    pub fn with_tolerance(&self, tolerance: f64) -> Self {
+        Self {
+            largest_angle: largest_angle(tolerance),
+            ..self.clone()
+        }
     }
 
     /// An assembly that has not moved yet.
@@ -153,6 +161,11 @@ impl AssemblySteps {
     pub fn stored_energy_j(&self, state: &AssemblyState) -> f64 {
         self.system.stored_energy(state)
     }
+}
+
+/// h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
+fn largest_angle(tolerance: f64) -> f64 {
+    ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).sqrt().sqrt()
 }
 
 /// Powers of time of the first half.

@@ -9,14 +9,12 @@ use fmi_schema::fmi3::{
 use fmi_schema::utils::AttrList;
 
 use super::super::description::floats;
+use super::super::start_file::FIRST_LISTED;
 use super::variables::{List, Listed, Role, TypeOf};
 
-/// The first value reference of the list; `crates/fmu` has it as well, and a test of the whole would not find a variable if they
-/// differed.
-pub(super) const FIRST_REFERENCE: u32 = 4096;
-
-fn reference(place: usize) -> u32 {
-    FIRST_REFERENCE + place as u32
+/// Value reference of the variable at a place.
+pub(super) fn reference(place: usize) -> u32 {
+    FIRST_LISTED + place as u32
 }
 
 /// The variables, with the types of the frame in `tree`.

@@ -4,21 +4,25 @@ mod declaration;
 mod equations;
 mod experiment;
 mod names;
+mod reference_run;
 mod variables;
 
 use std::path::PathBuf;
 
 use bolted_joint_assembly::AssemblyModel;
+use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::Passivity;
 
 use super::archive::File;
 use super::description::{self, Description};
-use super::documentation;
+use super::documentation::{self, AssemblyPage};
 use super::package::{Packed, packed};
+use super::reference_run::ReferenceRun;
 use super::start_file::HEADER;
+use super::terminals;
 use super::token::token;
 use super::{ExportError, FmiVersion, Timestamp};
-use variables::List;
+use variables::{List, letters};
 
 /// How an assembly is exported.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +90,7 @@ pub fn assembly_fmu(
     description.set_experiment(experiment);
     let declared = description.declared()?;
     let of = |place: usize| {
-        let reference = declaration::FIRST_REFERENCE + place as u32;
+        let reference = declaration::reference(place);
         declared
             .variables
             .iter()
@@ -122,8 +126,27 @@ pub fn assembly_fmu(
             text,
         ));
     }
+    let reference_run =
+        reference_run::run(model, &assembly, &list, experiment.communication_step_s)?;
+    let page = documentation::assembly_html(&AssemblyPage {
+        model,
+        summary: SUMMARY,
+        version: options.version,
+        declared: &declared,
+        suggested_step_s: experiment.communication_step_s,
+        reference_tolerance: reference_run.as_ref().map(ReferenceRun::tolerance),
+        token: &token,
+        date: options.date,
+    });
+    files.push(File::text("documentation/index.html", page));
     files.extend(documentation::licences());
-    let _ = &declared;
+    files.push(File::text(
+        terminals::FILE,
+        terminals::of_points(&declared, &points(model)),
+    ));
+    if let Some(run) = &reference_run {
+        files.extend(run.files(&model.name));
+    }
     Ok(ExportedAssembly {
         version: options.version,
         model_name: model.name.clone(),
@@ -138,6 +161,25 @@ pub fn assembly_fmu(
             options.date,
         )?,
     })
+}
+
+/// The points of loads and motions, one terminal for each name, with its members.
+fn points(model: &AssemblyModel) -> Vec<(String, DofKind, Vec<(&'static str, bool)>)> {
+    let mut points: Vec<(String, DofKind, Vec<(&'static str, bool)>)> = Vec::new();
+    let outputs = model.outputs.iter().map(|channel| (channel, false));
+    for (channel, is_load) in outputs.chain(model.inputs.iter().map(|channel| (channel, true))) {
+        let dof = letters(channel);
+        let members = match is_load {
+            true => vec![(dof.load, true)],
+            false => vec![(dof.name, false), (dof.rate, false)],
+        };
+        let mut known = points.iter_mut();
+        match known.find(|(name, ..)| *name == channel.name) {
+            Some((_, _, own)) => own.extend(members),
+            None => points.push((channel.name.clone(), dof.kind, members)),
+        }
+    }
+    points
 }
 
 /// Refuses joints that are active or not to be relied on, unless the user insists.

@@ -521,6 +521,28 @@ impl Maker<'_> {
     }
 }
 
+/// A number that the laws on a DOF remember and that is a variable.
+pub(super) struct Shown {
+    /// The DOF, among those that have laws.
+    pub(super) law: usize,
+    /// Its place in what is remembered there.
+    pub(super) place: usize,
+    pub(super) is_inner: bool,
+}
+
+/// All of them, in their order.
+pub(super) fn shown_places(assembly: &Assembly) -> Vec<Shown> {
+    let laws = assembly.laws().enumerate();
+    laws.flat_map(|(law, own)| {
+        shown(own).map(move |(place, _, _)| Shown {
+            law,
+            place,
+            is_inner: INNER_PLACES.contains(&place),
+        })
+    })
+    .collect()
+}
+
 /// What the laws on a DOF remember and that is a variable.
 fn shown(
     laws: &DofLaws,

@@ -8,7 +8,10 @@ mod memory;
 
 pub(crate) use layout::AssemblyLayout;
 
-use bolted_joint_dynamics::{Dual, assembly::AssemblyState};
+use bolted_joint_dynamics::{
+    Dual,
+    assembly::{AssemblyMotion, AssemblyState},
+};
 
 use crate::{
     assembly_file::AssemblyFile,
@@ -73,6 +76,27 @@ impl AssemblyModel {
         }
     }
 
+    /// Moves the state on by what is left over of a step: y + δ ẏ.
+    fn go_on(&mut self, values: &Values, rest_s: f64) {
+        let assembly = &self.file.assembly;
+        let loads = &values.listed()[self.layout.loads.clone()];
+        let (coordinates, rates) = self.state.motion.split_at(assembly.size());
+        let motion = AssemblyMotion { coordinates, rates };
+        let mut joint_loads = vec![0.0; self.layout.joint_loads.len()];
+        assembly.joint_loads(motion, &self.state.memory, &mut joint_loads);
+        let mut accelerations = vec![0.0; assembly.size()];
+        assembly.accelerations(motion, loads, &joint_loads, &mut accelerations);
+        let supplied = assembly.supplied_power(rates, loads);
+        let dissipated = assembly.dissipated_power(motion, &self.state.memory);
+        self.state.supplied_j += rest_s * supplied;
+        self.state.dissipated_j += rest_s * dissipated;
+        let (coordinates, rates) = self.state.motion.split_at_mut(assembly.size());
+        for (i, acceleration) in accelerations.into_iter().enumerate() {
+            coordinates[i] += rest_s * rates[i];
+            rates[i] += rest_s * acceleration;
+        }
+    }
+
     /// Refuses a state of which a number is no finite one.
     fn check_finite(&self, time_s: f64) -> Result<(), Refusal> {
         let energies = [self.state.supplied_j, self.state.dissipated_j];
@@ -115,7 +139,7 @@ impl Model for AssemblyModel {
     fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
         self.take_state(values);
         let steps = self.lengths.of(&self.file.assembly, step)?;
-        let h = step.interval_s;
+        let h = steps.length_s();
         let (first, listed) = (self.layout.loads.start, values.listed());
         steps.step_along(&mut self.state, |power, load| {
             let place = first + load;
@@ -128,7 +152,10 @@ impl Model for AssemblyModel {
                 }
             }
         });
-        self.check_finite(step.time_s + h)?;
+        if h != step.interval_s {
+            self.go_on(values, step.interval_s - h);
+        }
+        self.check_finite(step.time_s + step.interval_s)?;
         self.write_state(values);
         Ok(None)
     }

@@ -7,6 +7,7 @@ use bolted_joint::export::{AssemblyOptions, ExportedAssembly, Timestamp, assembl
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
+use super::super::invocation::platforms;
 use super::super::output::{check_output, message, print, warn};
 use super::super::table::number;
 use super::ExportArguments;
@@ -29,7 +30,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let model = AssemblyModel::of(&text)?;
     let options = AssemblyOptions {
         version: arguments.fmi.into(),
-        platforms: arguments.platforms.clone(),
+        platforms: arguments.platforms.clone().or_else(platforms),
         allow_active: arguments.allow_active,
         allow_unusable: arguments.unusable,
         date: Timestamp::from_environment()?,

@@ -34,8 +34,15 @@ fn beams(modes: usize, joints: usize) -> AssemblyModel {
         .unwrap();
     }
     for joint in 1..=joints {
-        let side = |name: &str| format!("{name} = {{ structure = \"{name}\", y = \"{joint}:+Y\" }}\n");
-        write!(text, "[[joints]]\nfile = \"lap.joint.json\"\n{}{}", side("a"), side("b")).unwrap();
+        let side =
+            |name: &str| format!("{name} = {{ structure = \"{name}\", y = \"{joint}:+Y\" }}\n");
+        write!(
+            text,
+            "[[joints]]\nfile = \"lap.joint.json\"\n{}{}",
+            side("a"),
+            side("b")
+        )
+        .unwrap();
     }
     text += "[inputs]\npush = \"b/99:+Y\"\n[outputs]\ntip = \"b/99:+Y\"\n";
     AssemblyModel::of(&StudyText::new(text, &folder.path().join("beams.toml"))).unwrap()
@@ -57,7 +64,8 @@ fn assemblies(criterion: &mut Criterion) {
         group.bench_function("a step", |bencher| {
             bencher.iter(|| {
                 count += 1;
-                let load = 30.0 * (2.0 * std::f64::consts::PI * 700.0 * step_s * f64::from(count)).sin();
+                let load =
+                    30.0 * (2.0 * std::f64::consts::PI * 700.0 * step_s * f64::from(count)).sin();
                 steps.step(&mut state, &[black_box(load)], &[0.0])
             });
         });

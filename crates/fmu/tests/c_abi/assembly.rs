@@ -32,7 +32,7 @@ const FAULTS: &str = r#"
     joint lap y | joint lap theta y | 37 | expected "joint", its name and its degrees of freedom
     joint.k3_y 1e12 | joint.k3_x 1e12 | 42 | found "joint.k3_x 1e12", expected the name of a parameter of a law
     joint.k3_y 1e12 | joint.jenkins_k_y -1 | 42 | found a parameter outside of the range of its law
-    joint.k3_y 1e12\n | joint.k3_y 1e12\n# | 43 | found "#", expected the end of the file
+    joint.k3_y 1e12\n | joint.k3_y 1e12\nmore\n | 43 | found "more", expected the end of the file
     joint.k3_y 1e12\n | | 42 | found "", expected the name of a parameter of a law
 "#;
 
@@ -49,7 +49,10 @@ fn files_with_a_fault_are_refused_by_line() {
                 ..Request::of(&folder)
             };
             let message = request.refusal();
-            assert!(message.contains(&format!("line {line}: ")), "{message}, not line {line}");
+            assert!(
+                message.contains(&format!("line {line}: ")),
+                "{message}, not line {line}"
+            );
             c::tells(&message, "", expected);
         }
     }

@@ -58,7 +58,10 @@ impl Lengths {
 fn with_nine_digits(number: f64) -> f64 {
     let rounded = format!("{number:.8e}").parse::<f64>();
     // the largest numbers round up to infinity
-    rounded.ok().filter(|rounded| rounded.is_finite() && *rounded > 0.0).unwrap_or(number)
+    rounded
+        .ok()
+        .filter(|rounded| rounded.is_finite() && *rounded > 0.0)
+        .unwrap_or(number)
 }
 
 #[cfg(test)]

@@ -70,6 +70,7 @@ impl AssemblyModel {
         listed[layout.coordinates.start..layout.rates.end].copy_from_slice(&self.state.motion);
         listed[layout.energies.start] = self.state.supplied_j;
         listed[layout.energies.start + 1] = self.state.dissipated_j;
+        self.calculated().write_inner(listed, &self.state.memory);
         let laws = self.file.assembly.laws();
         for ((laws, own), memory) in laws.zip(&self.state.memory).zip(values.memories_mut()) {
             laws.copy_memory(own, memory);

@@ -33,14 +33,25 @@ pub(super) fn terminals_and_icons(declared: &Declared, dofs: DofSet) -> String {
     })
 }
 
-/// The same for an FMU with terminals of these names, each with its members, that are loads or are not: one degree of freedom each.
-pub(super) fn of_points(
-    declared: &Declared,
-    points: &[(String, DofKind, Vec<(&'static str, bool)>)],
-) -> String {
+/// A terminal of one degree of freedom.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Point {
+    pub(super) name: String,
+    pub(super) kind: DofKind,
+    /// Names of its members, and whether each is a load.
+    pub(super) members: Vec<(&'static str, bool)>,
+}
+
+/// The same for an FMU with these points as terminals.
+pub(super) fn of_points(declared: &Declared, points: &[Point]) -> String {
     file(|document| {
         document.element("Terminals", Attributes::new(), |document| {
-            for (name, kind, members) in points {
+            for Point {
+                name,
+                kind,
+                members,
+            } in points
+            {
                 let kind = match kind {
                     DofKind::Translation => "_bolted_joint.TranslationalPoint",
                     DofKind::Rotation => "_bolted_joint.RotationalPoint",

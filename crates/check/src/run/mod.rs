@@ -142,13 +142,16 @@ fn comparison(
     }
 }
 
+/// What each reading of variables gave.
+type Readings = Vec<Vec<f64>>;
+
 /// Lets a child process do this with the library; returns what it read, if it came to its end.
 fn carry_out(
     mut archive: Archive,
     described: &Described,
     actions: &[Action],
     runner: &Runner,
-) -> Result<(RunReport, Option<Vec<Vec<f64>>>), CheckError> {
+) -> Result<(RunReport, Option<Readings>), CheckError> {
     let platform = platform(described.version);
     let Some(library) = library_entry(&archive.names(), platform, described) else {
         let verdict = RunVerdict::NoLibrary(platform.to_owned());

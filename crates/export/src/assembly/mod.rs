@@ -3,6 +3,7 @@
 mod declaration;
 mod equations;
 mod experiment;
+mod maker;
 mod names;
 mod reference_run;
 mod variables;
@@ -10,7 +11,6 @@ mod variables;
 use std::path::PathBuf;
 
 use bolted_joint_assembly::AssemblyModel;
-use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::Passivity;
 
 use super::archive::File;
@@ -19,7 +19,7 @@ use super::documentation::{self, AssemblyPage};
 use super::package::{Packed, packed};
 use super::reference_run::ReferenceRun;
 use super::start_file::HEADER;
-use super::terminals;
+use super::terminals::{self, Point};
 use super::token::token;
 use super::{ExportError, FmiVersion, Timestamp};
 use variables::{List, letters};
@@ -163,20 +163,24 @@ pub fn assembly_fmu(
     })
 }
 
-/// The points of loads and motions, one terminal for each name, with its members.
-fn points(model: &AssemblyModel) -> Vec<(String, DofKind, Vec<(&'static str, bool)>)> {
-    let mut points: Vec<(String, DofKind, Vec<(&'static str, bool)>)> = Vec::new();
+/// The points of loads and motions, one terminal for each name.
+fn points(model: &AssemblyModel) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::new();
     let outputs = model.outputs.iter().map(|channel| (channel, false));
-    for (channel, is_load) in outputs.chain(model.inputs.iter().map(|channel| (channel, true))) {
+    let inputs = model.inputs.iter().map(|channel| (channel, true));
+    for (channel, is_load) in outputs.chain(inputs) {
         let dof = letters(channel);
         let members = match is_load {
             true => vec![(dof.load, true)],
             false => vec![(dof.name, false), (dof.rate, false)],
         };
-        let mut known = points.iter_mut();
-        match known.find(|(name, ..)| *name == channel.name) {
-            Some((_, _, own)) => own.extend(members),
-            None => points.push((channel.name.clone(), dof.kind, members)),
+        match points.iter_mut().find(|point| point.name == channel.name) {
+            Some(point) => point.members.extend(members),
+            None => points.push(Point {
+                name: channel.name.clone(),
+                kind: dof.kind,
+                members,
+            }),
         }
     }
     points

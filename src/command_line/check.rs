@@ -10,7 +10,10 @@ use bolted_joint_importer::FmiVersion;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use bolted_joint::check::{self, RunReport, RunVerdict, Runner, execute_script, inspect};
+use bolted_joint::check::{
+    self, AssemblyInspection, RunReport, RunVerdict, Runner, execute_script, inspect,
+    inspect_assembly,
+};
 use bolted_joint::export::Interface;
 use bolted_joint::joint::JointFile;
 
@@ -66,7 +69,10 @@ struct Report {
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let path = &arguments.file;
     let report = if is_zip(path) {
-        fmu(path, arguments)?
+        match inspect_assembly(path)? {
+            Some(inspection) => assembly(path, &inspection, arguments)?,
+            None => fmu(path, arguments)?,
+        }
     } else {
         joint_file(path, arguments)?
     };
@@ -224,18 +230,7 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
         facts.push("run: left out".to_owned());
         details.insert("run".to_owned(), Value::Null);
     } else {
-        let Program {
-            path: program,
-            mut arguments,
-            ..
-        } = program()?;
-        arguments.push(RUN_LIBRARY.to_owned());
-        let runner = Runner {
-            program,
-            arguments,
-            time_limit: TIME_LIMIT,
-        };
-        let report = check::run(path, &inspection, &runner)?;
+        let report = check::run(path, &inspection, &runner()?)?;
         facts.extend(run_facts(&report));
         details.insert("run".to_owned(), run_details(&report));
         findings.extend(report.findings);
@@ -251,17 +246,77 @@ fn fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
         facts.extend(step.facts);
         details.insert("communication_step".to_owned(), step.details);
     }
-    let version = match inspection.version {
-        FmiVersion::Two => "2.0",
-        FmiVersion::Three => "3.0",
-    };
     Ok(Report {
-        kind: format!("FMU (FMI {version}, Co-Simulation and Model Exchange)"),
+        kind: kind(inspection.version),
         facts,
         reasons_against: inspection.joint.reasons_against().to_vec(),
         findings,
         messages,
         details,
+    })
+}
+
+/// The FMU of an assembly.
+fn assembly(
+    path: &Path,
+    inspection: &AssemblyInspection,
+    arguments: &CheckArguments,
+) -> Result<Report, CliError> {
+    let [inputs, outputs, coordinates] = inspection.counts;
+    let mut facts = vec![
+        format!(
+            "model: {}, structures and the bolted joints between them (loads in, motion out)",
+            inspection.model_name
+        ),
+        format!("{inputs} inputs, {outputs} outputs, {coordinates} coordinates of structures"),
+        format!("platforms: {}", inspection.platforms.join(", ")),
+    ];
+    facts.extend(inspection.parts.iter().cloned());
+    let mut details = Map::new();
+    details.insert("platforms".to_owned(), json!(inspection.platforms));
+    details.insert("coordinates".to_owned(), json!(coordinates));
+    let (mut findings, mut messages) = (inspection.findings.clone(), Vec::new());
+    if arguments.no_run {
+        facts.push("run: left out".to_owned());
+        details.insert("run".to_owned(), Value::Null);
+    } else {
+        let report = check::run_assembly(path, inspection, &runner()?)?;
+        facts.extend(run_facts(&report));
+        details.insert("run".to_owned(), run_details(&report));
+        findings.extend(report.findings);
+        messages = report.messages;
+    }
+    Ok(Report {
+        kind: kind(inspection.version),
+        facts,
+        reasons_against: Vec::new(),
+        findings,
+        messages,
+        details,
+    })
+}
+
+/// What an FMU is called.
+fn kind(version: FmiVersion) -> String {
+    let version = match version {
+        FmiVersion::Two => "2.0",
+        FmiVersion::Three => "3.0",
+    };
+    format!("FMU (FMI {version}, Co-Simulation and Model Exchange)")
+}
+
+/// What starts a process for a library.
+fn runner() -> Result<Runner, CliError> {
+    let Program {
+        path: program,
+        mut arguments,
+        ..
+    } = program()?;
+    arguments.push(RUN_LIBRARY.to_owned());
+    Ok(Runner {
+        program,
+        arguments,
+        time_limit: TIME_LIMIT,
     })
 }
 

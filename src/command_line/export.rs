@@ -1,4 +1,6 @@
-//! `export`: a joint file becomes an FMU.
+//! `export`: a joint file or an assembly file becomes an FMU.
+
+mod assembly;
 
 use std::path::{Path, PathBuf};
 
@@ -19,19 +21,14 @@ use super::table::number;
 /// `export`
 #[derive(Debug, Args)]
 pub(super) struct ExportArguments {
-    /// Joint file (JSON)
+    /// Joint file (JSON), or assembly file (TOML)
     joint_file: PathBuf,
     /// FMU to write
     #[arg(short, long, value_name = "NAME.fmu")]
     output: PathBuf,
-    /// Interface of the FMU
-    #[arg(
-        long = "as",
-        value_enum,
-        value_name = "INTERFACE",
-        default_value = "element"
-    )]
-    interface: InterfaceArgument,
+    /// Interface of the FMU of a joint [default: element]
+    #[arg(long = "as", value_enum, value_name = "INTERFACE")]
+    interface: Option<InterfaceArgument>,
     /// Version of the FMI standard
     #[arg(long, value_enum, value_name = "VERSION", default_value = "3")]
     fmi: FmiVersion,
@@ -95,6 +92,14 @@ impl From<InterfaceArgument> for Interface {
 }
 
 pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
+    let is_toml = |path: &Path| {
+        let extension = path.extension();
+        extension.is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+    };
+    if is_toml(&arguments.joint_file) {
+        return assembly::run(arguments);
+    }
+    let interface = arguments.interface.unwrap_or(InterfaceArgument::Element);
     let options = ExportOptions {
         version: arguments.fmi.into(),
         step_size_max_s: arguments.step_size_max,
@@ -103,7 +108,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         extrapolate: arguments.extrapolate,
         allow_active: arguments.allow_active,
         allow_unusable: arguments.unusable,
-        ..options(arguments.interface.into())?
+        ..options(interface.into())?
     };
     check_output(&arguments.output, &[&arguments.joint_file])?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
@@ -163,7 +168,7 @@ pub(super) fn export_to(
 /// What was written, in five lines.
 fn summary(exported: &Exported, fmu: &Path) -> String {
     let platforms: Vec<&str> = exported
-        .libraries
+        .libraries()
         .iter()
         .map(|library| library.platform.as_str())
         .collect();
@@ -175,7 +180,7 @@ fn summary(exported: &Exported, fmu: &Path) -> String {
          token: {}\n",
         fmu.display(),
         exported.version,
-        exported.entries.len(),
+        exported.entries().len(),
         exported.bytes().len().div_ceil(1000),
         exported.model_name,
         exported.interface.summary(),
@@ -219,9 +224,9 @@ fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
         "token": exported.token,
         "step_size_max_s": exported.step.map(|step| step.longest_s),
         "escape_amplitude": exported.escape_amplitude,
-        "platforms": exported.libraries.iter().map(|library| &library.platform).collect::<Vec<_>>(),
+        "platforms": exported.libraries().iter().map(|library| &library.platform).collect::<Vec<_>>(),
         "entries": exported
-            .entries
+            .entries()
             .iter()
             .map(|entry| json!({ "path": entry.path, "size": entry.size }))
             .collect::<Vec<_>>(),

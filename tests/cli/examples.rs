@@ -151,3 +151,13 @@ fn a_test_in_space_is_planned_and_answers_beforehand() {
         &["--for", "k_q", "k_x_ry"],
     );
 }
+
+#[test]
+fn two_beams_become_one_fmu() {
+    let bench = files_of("two-beams");
+    bench.done("respond beams.toml -o history.csv");
+    let written = bench.done("export beams.toml -o beams.fmu").stdout;
+    has(&written, &["2 structures with", "1 joints between them"]);
+    let told = bench.done("check beams.fmu").stdout;
+    has(&told, &["no problem found", "reference run: met"]);
+}

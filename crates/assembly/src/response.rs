@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::assembly::AssemblySteps;
+use bolted_joint_dynamics::assembly::{AssemblySteps, TOLERANCE};
 use bolted_joint_study::{StudyError, StudyText};
 
 use crate::error::AssemblyError;
@@ -15,8 +15,6 @@ const LINES: usize = 1000;
 const MOST_LINES: usize = 1_000_000;
 /// More steps than anybody waits for.
 const MOST_STEPS: f64 = 1e7;
-/// Error of the joints' nonlinear part over a period of their own.
-const TOLERANCE: f64 = 1e-7;
 
 /// Frequencies, evenly spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -128,7 +128,7 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
 }
 
 /// Platform folders that hold a library of ours.
-fn platforms(names: &[String]) -> Vec<String> {
+pub(super) fn platforms(names: &[String]) -> Vec<String> {
     let mut platforms: Vec<String> = names
         .iter()
         .filter_map(|name| {

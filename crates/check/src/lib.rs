@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod archive;
+mod assembly;
 mod attributes;
 mod described;
 mod error;
@@ -14,6 +15,7 @@ mod reference;
 mod run;
 mod variables;
 
+pub use assembly::{AssemblyInspection, inspect_assembly};
 pub use error::CheckError;
 pub use inspect::{Inspection, inspect};
-pub use run::{BalanceReport, RunReport, RunVerdict, Runner, execute_script, run};
+pub use run::{BalanceReport, RunReport, RunVerdict, Runner, execute_script, run, run_assembly};

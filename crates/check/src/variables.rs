@@ -57,6 +57,11 @@ pub(super) fn differences(found: &Described, expected: &Declared) -> Vec<String>
             ));
         }
     }
+    shortened(findings)
+}
+
+/// The first of the variables that differ, and how many more there are.
+pub(super) fn shortened(mut findings: Vec<String>) -> Vec<String> {
     if let Some(more) = findings.len().checked_sub(LISTED_VARIABLES + 1) {
         findings.truncate(LISTED_VARIABLES);
         findings.push(format!("{FILE}: {} more variables differ", more + 1));

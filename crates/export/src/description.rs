@@ -2,8 +2,8 @@
 
 use bolted_joint_interface::{Expanded, Interface as Checked, Joints, Rows};
 use fmi_schema::fmi3::{
-    Causality, DefaultExperiment, DependenciesKind, Fmi3ModelDescription, Fmi3Unknown, FmiFloat64,
-    TypeDefinition, Variable, VariableDependency,
+    Causality, DefaultExperiment, DependenciesKind, Float64Type, Fmi3ModelDescription, Fmi3Unknown,
+    FmiFloat64, TypeDefinition, Variable, VariableDependency,
 };
 use fmi_schema::traits::FmiModelDescription as _;
 use fmi_schema::utils::AttrList;
@@ -49,6 +49,37 @@ impl Description {
         }
         drop_unused_types(&mut tree);
         // Set last, by `finish`.
+        tree.instantiation_token.clear();
+        tree.generation_date_and_time = None;
+        Ok(Self {
+            tree,
+            expanded,
+            version: FmiVersion::default(),
+        })
+    }
+
+    /// An interface whose variables are not those of a joint, but these; types, units and the time are those of the lap.
+    pub(super) fn listing(
+        variables: impl FnOnce(&Fmi3ModelDescription) -> (Vec<Float64Type>, Vec<FmiFloat64>),
+        unknowns: Vec<VariableDependency>,
+        remembers: bool,
+    ) -> Result<Self, ExportError> {
+        let expanded = Interface::Lap.expanded()?;
+        let mut tree = Fmi3ModelDescription::deserialize(&expanded.xml)?;
+        let (types, listed) = variables(&tree);
+        if let Some(definitions) = &mut tree.type_definitions {
+            let types = types.into_iter().map(TypeDefinition::Float64);
+            definitions.type_definitions.extend(types);
+        }
+        let is_time = |variable: &Variable| matches!(variable, Variable::Float64(own) if own.causality == Some(Causality::Independent));
+        let all = &mut tree.model_variables.variables;
+        all.retain(is_time);
+        all.extend(listed.into_iter().map(Variable::Float64));
+        tree.model_structure.unknowns = unknowns;
+        tree.model_exchange
+            .iter_mut()
+            .for_each(|exchange| exchange.needs_completed_integrator_step = Some(remembers));
+        drop_unused_types(&mut tree);
         tree.instantiation_token.clear();
         tree.generation_date_and_time = None;
         Ok(Self {
@@ -131,6 +162,12 @@ impl Description {
         Ok(indented(&self.tree.serialize()?))
     }
 
+    /// What it declares so far, checked.
+    pub(super) fn declared(&self) -> Result<Checked, ExportError> {
+        Checked::from_xml(FILE, &self.fmi3_text()?)
+            .map_err(|refused| ExportError::Interface(Box::new(refused)))
+    }
+
     /// The finished text, and what it declares, checked in its FMI 3.0 form as the hand-written files are.
     pub(super) fn finish(
         mut self,
@@ -139,8 +176,7 @@ impl Description {
     ) -> Result<(String, Checked), ExportError> {
         self.tree.instantiation_token = token.to_owned();
         self.tree.generation_date_and_time = Some(date.to_string());
-        let checked = Checked::from_xml(FILE, &self.fmi3_text()?)
-            .map_err(|refused| ExportError::Interface(Box::new(refused)))?;
+        let checked = self.declared()?;
         Ok((self.text()?, checked))
     }
 }

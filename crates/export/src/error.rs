@@ -138,6 +138,34 @@ pub enum ExportError {
         /// Name of the variable.
         variable: String,
     },
+    /// The assembly gives no equations.
+    #[error(transparent)]
+    Assembly(#[from] Box<bolted_joint_assembly::AssemblyError>),
+    /// A name of an assembly that no variable of an FMU can have.
+    #[error(
+        "`{key}`: found {found:?}, expected a word of letters, digits and _ that does not begin with a digit and is none of \
+         {taken}, since the FMU's variables are named by it; give it another name"
+    )]
+    NotAWord {
+        /// Key in the assembly file.
+        key: String,
+        /// The name.
+        found: String,
+        /// Words that the FMU uses itself.
+        taken: String,
+    },
+    /// Two variables of an assembly's FMU that have one name.
+    #[error(
+        "`{one}` and `{other}`: both give the FMU a variable {variable}, expected different names; rename one of them"
+    )]
+    SameName {
+        /// The variable.
+        variable: String,
+        /// Key that gives it.
+        one: String,
+        /// The other.
+        other: String,
+    },
     /// The model description cannot be read or written. A mistake in this program.
     #[error("model description: {0}; please report this")]
     Description(#[from] fmi_schema::Error),

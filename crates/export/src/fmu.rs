@@ -4,20 +4,20 @@ use std::path::{Path, PathBuf};
 
 use bolted_joint_dynamics::{Eigenvalue, Lap, Spectrum, with_dofs};
 
-use super::archive::{File, archive};
+use super::archive::File;
 use super::assets::pictures;
 use super::declared::kind;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
+use super::package::{Entry, Packed, packed};
 use super::parameters::start_value;
-use super::platforms::{Library, binaries};
+use super::platforms::Library;
 use super::reference_run::ReferenceRun;
 use super::start_file::{laws_line, parameter_lines, start_file, table_lines};
 use super::step::{Experiment, StepSize};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
-use bolted_joint_files::whole_file;
 use bolted_joint_joint::{JointFile, LawError, OverPreload, Passivity};
 
 /// What to export, and how.
@@ -64,27 +64,26 @@ pub struct Exported {
     pub passivity: Passivity,
     /// Why the joint is not to be relied on; empty where it may be used.
     pub reasons_against: Vec<String>,
-    /// Libraries in it.
-    pub libraries: Vec<Library>,
-    /// Its files.
-    pub entries: Vec<Entry>,
-    bytes: Vec<u8>,
-}
-
-/// A file of an FMU.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Entry {
-    /// Path in the FMU.
-    pub path: String,
-    /// Length before compression, bytes.
-    pub size: usize,
+    packed: Packed,
 }
 
 impl Exported {
     /// The FMU itself.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        self.packed.bytes()
+    }
+
+    /// Libraries in it.
+    #[must_use]
+    pub fn libraries(&self) -> &[Library] {
+        &self.packed.libraries
+    }
+
+    /// Its files.
+    #[must_use]
+    pub fn entries(&self) -> &[Entry] {
+        &self.packed.entries
     }
 
     /// Writes the FMU to `path`, whole or not at all.
@@ -93,10 +92,7 @@ impl Exported {
     ///
     /// [`ExportError::Unwritable`] where the system refuses.
     pub fn write(&self, path: &Path) -> Result<(), ExportError> {
-        whole_file::write(path, &self.bytes).map_err(|source| ExportError::Unwritable {
-            path: path.to_path_buf(),
-            source,
-        })
+        self.packed.write(path)
     }
 }
 
@@ -282,15 +278,7 @@ fn fmu(
         files.extend(run.files(&file.name));
     }
     files.extend(pictures(options.version, options.interface, dofs));
-    let mut libraries = Vec::new();
-    for binary in binaries(options.platforms.as_deref(), &library_name, options.version)? {
-        libraries.push(binary.library);
-        files.push(File {
-            path: binary.path,
-            bytes: binary.bytes,
-            executable: true,
-        });
-    }
+    let platforms = options.platforms.as_deref();
     Ok(Exported {
         interface: options.interface,
         version: options.version,
@@ -300,15 +288,13 @@ fn fmu(
         escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
         passivity,
         reasons_against: subject.source().reasons_against().to_vec(),
-        libraries,
-        bytes: archive(&files, options.date)?,
-        entries: files
-            .into_iter()
-            .map(|file| Entry {
-                path: file.path,
-                size: file.bytes.len(),
-            })
-            .collect(),
+        packed: packed(
+            files,
+            platforms,
+            &library_name,
+            options.version,
+            options.date,
+        )?,
     })
 }
 

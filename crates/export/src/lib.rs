@@ -1,10 +1,12 @@
-//! From a joint file to an FMU (FMI 3.0 or 2.0, Co-Simulation and Model Exchange) that any FMI tool can load.
+//! From a joint file, or from an assembly of structures and joints, to an FMU (FMI 3.0 or 2.0, Co-Simulation and Model Exchange)
+//! that any FMI tool can load.
 //!
-//! Nothing is compiled: the FMU's library is the same for every joint and is carried inside this crate. [`fmu_bytes`]
-//! writes the model description, the start values that the library reads, the documentation, and the archive around them.
+//! Nothing is compiled: the FMU's library is the same for every joint and is carried inside this crate. [`fmu_bytes`] and
+//! [`assembly_fmu`] write the model description, what the library reads, the documentation, and the archive around them.
 #![forbid(unsafe_code)]
 
 mod archive;
+mod assembly;
 mod assets;
 mod declared;
 mod description;
@@ -14,6 +16,7 @@ mod fmi2;
 mod fmi_version;
 mod fmu;
 mod interface;
+mod package;
 mod parameters;
 mod platforms;
 mod provenance;
@@ -24,14 +27,19 @@ mod terminals;
 mod token;
 mod xml;
 
+pub use assembly::{AssemblyOptions, ExportedAssembly, assembly_fmu};
 pub use bolted_joint_files::{DateError, Timestamp};
 pub use declared::declared;
 pub use error::ExportError;
 pub use fmi_version::FmiVersion;
-pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};
+pub use fmu::{ExportOptions, Exported, fmu_bytes};
 pub use interface::Interface;
+pub use package::{Entry, Packed};
 pub use parameters::start_value;
 pub use platforms::{EMBEDDED_LIBRARY, EMBEDDED_PLATFORM, Library, LibrarySource};
 pub use provenance::provenance;
-pub use start_file::{StartFile, dofs_text, laws_line, parameter_lines, table_lines};
+pub use start_file::{
+    AssemblyStartFile, ListedVariable, StartFile, dofs_text, laws_line, parameter_lines,
+    table_lines,
+};
 pub use step::{StepChoice, StepSize};

@@ -7,7 +7,10 @@ use bolted_joint_dynamics::law::Declaration;
 use bolted_joint_joint::{DofSet, Joint, JointFile};
 
 /// First line of the file.
-const HEADER: &str = "bolted-joint-start/1";
+pub(super) const HEADER: &str = "bolted-joint-start/1";
+
+/// The value reference of the first variable that such a file lists, as `crates/fmu` has it.
+pub(super) const FIRST_LISTED: u32 = 4096;
 
 /// The parameters as the file lists them, one `name value` on each line.
 pub fn parameter_lines(parameters: &[(String, f64)]) -> String {
@@ -154,6 +157,67 @@ impl StartFile {
     pub fn value(&self, name: &str) -> Option<f64> {
         let found = self.parameters.iter().find(|(other, _)| other == name);
         found.map(|&(_, value)| value)
+    }
+}
+
+/// What the start-value file of an assembly says of the FMU's variables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AssemblyStartFile {
+    /// The FMU's instantiation token.
+    pub token: String,
+    /// The variables.
+    pub variables: Vec<ListedVariable>,
+}
+
+/// A variable that the start-value file of an assembly lists.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ListedVariable {
+    /// Name.
+    pub name: String,
+    /// Its value reference.
+    pub reference: u32,
+    /// Causalities that it may be declared with.
+    pub causalities: &'static [&'static str],
+    /// Unit.
+    pub unit: String,
+}
+
+impl AssemblyStartFile {
+    /// Reads the text; `None` where it is not such a file.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.lines();
+        let has_head = lines.next()? == HEADER && lines.next()? == "model assembly";
+        let token = lines
+            .next()
+            .filter(|_| has_head)?
+            .strip_prefix("token ")?
+            .to_owned();
+        let count = lines
+            .next()?
+            .strip_prefix("variables ")?
+            .parse::<usize>()
+            .ok()?;
+        let variables: Vec<ListedVariable> = lines
+            .take(count)
+            .enumerate()
+            .map(|(place, line)| {
+                let mut words = line.split(' ');
+                let causalities: &[&str] = match words.next()? {
+                    "input" | "limited" => &["input"],
+                    "state" => &["output", "local"],
+                    "inner" | "output" => &["output"],
+                    "derivative" | "indicator" => &["local"],
+                    _ => return None,
+                };
+                Some(ListedVariable {
+                    name: words.next()?.to_owned(),
+                    reference: FIRST_LISTED + u32::try_from(place).ok()?,
+                    causalities,
+                    unit: words.next()?.to_owned(),
+                })
+            })
+            .collect::<Option<_>>()?;
+        (variables.len() == count).then_some(Self { token, variables })
     }
 }
 

@@ -8,9 +8,9 @@
 //! | 4 | version of this layout |
 //! | 4 + n | length of the instantiation token, and the token |
 //! | 1 | FMI version: 2 or 3 |
-//! | 1 | kind: 0 element, 1 lap |
-//! | 1 | degrees of freedom: 1 and 2 in a plane; 128 and a bit for each of those in space |
-//! | 4 | joint: a bit each for constant, over the preload, and the laws that remember |
+//! | 1 | kind: 0 element, 1 lap, 2 assembly |
+//! | 1 | degrees of freedom: 1 and 2 in a plane; 128 and a bit for each of those in space; 0 of an assembly |
+//! | 4 | joint: a bit each for constant, over the preload, and the laws that remember; 0 of an assembly |
 //! | 1 | interface type: 0 Co-Simulation, 1 Model Exchange |
 //! | 1 | state of the state machine |
 //! | 1 + 8 | whether there is a stop time, and the stop time |
@@ -18,7 +18,8 @@
 //! | 4 + 8 n | number of values, and all of them: by value reference, but for further laws of a kind where the joint has none; then
 //!   what is remembered beside them |
 //! | 4 + 8 l | number of numbers that the joint remembers, with those for event indicators, and these |
-//! | 9 + 8 m | which inputs have derivatives, for which step, and the derivatives of first to third order by input |
+//! | 9 + k + 8 m | which inputs have derivatives, for which step, of k inputs of an assembly which have, and the derivatives of
+//!   first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
 
 use std::{fmt, sync::Arc};
@@ -26,7 +27,8 @@ use std::{fmt, sync::Arc};
 use crate::{
     input_course::InputCourse,
     interface::{
-        Dependence, Dofs, InterfaceType, Kind, REFERENCE_COUNT, VALUE_COUNT, Values, Variables,
+        BuiltVariables, Dependence, Dofs, InterfaceType, Kind, ListedVariables, Name,
+        REFERENCE_COUNT, VALUE_COUNT, Values, Variables, is_beside,
     },
     mode::Mode,
     pace::Pace,
@@ -35,7 +37,9 @@ use crate::{
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
+/// Number of an assembly, beside those of [`Kind`].
+const ASSEMBLY: u8 = 2;
 
 /// An enumeration of which one byte is written.
 trait Numbered: Copy + 'static {
@@ -69,9 +73,9 @@ numbered! {
 }
 
 /// What makes two FMUs the same one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Identity {
-    /// Kind, degrees of freedom, and whether the joint is one over the preload.
+    /// Its variables, and what they depend on.
     pub(crate) variables: Variables,
     /// FMI version.
     pub(crate) abi: Abi,
@@ -83,21 +87,25 @@ pub(crate) struct Identity {
 
 impl fmt::Display for Identity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Variables {
-            kind,
-            dofs,
-            dependence,
-        } = self.variables;
-        let preload = match dependence {
-            Dependence::OverPreload(0) => " over the preload",
-            Dependence::OverPreload(_) => " over the preload with memory",
-            Dependence::Constant => "",
-            Dependence::Memory(_) => " with memory",
-        };
+        match &self.variables {
+            Variables::Built(BuiltVariables {
+                kind,
+                dofs,
+                dependence,
+            }) => {
+                let preload = match dependence {
+                    Dependence::OverPreload(0) => " over the preload",
+                    Dependence::OverPreload(_) => " over the preload with memory",
+                    Dependence::Constant => "",
+                    Dependence::Memory(_) => " with memory",
+                };
+                write!(f, "{} with {dofs} a side{preload}", kind.name())?;
+            }
+            Variables::Listed(_) => f.write_str("assembly")?,
+        }
         write!(
             f,
-            "{} with {dofs} a side{preload} for {} of {}, token {}",
-            kind.name(),
+            " for {} of {}, token {}",
             self.interface_type.name(),
             self.abi.words().version,
             self.token
@@ -140,7 +148,7 @@ pub(crate) enum StateError {
     /// A field has a value that it cannot have.
     Field { name: &'static str },
     /// A variable is NaN or infinite.
-    Value { name: &'static str },
+    Value { name: Name },
     /// A number that is remembered beside the variables is NaN or infinite.
     Remembered { index: usize },
 }
@@ -204,12 +212,16 @@ impl Snapshot {
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((token.len() as u32).to_le_bytes());
         bytes.extend(token.as_bytes());
-        bytes.extend([
-            abi.number(),
-            variables.kind.number(),
-            variables.dofs.number(),
-        ]);
-        bytes.extend(variables.dependence.number().to_le_bytes());
+        bytes.push(abi.number());
+        let (kind, joint) = match variables {
+            Variables::Built(own) => (
+                [own.kind.number(), own.dofs.number()],
+                own.dependence.number(),
+            ),
+            Variables::Listed(_) => ([ASSEMBLY, 0], 0),
+        };
+        bytes.extend(kind);
+        bytes.extend(joint.to_le_bytes());
         bytes.extend([interface_type.number(), self.mode.number()]);
         bytes.push(u8::from(self.stop_s.is_some()));
         bytes.extend(self.stop_s.unwrap_or(0.0).to_le_bytes());
@@ -250,14 +262,7 @@ impl Snapshot {
         let token = String::from_utf8(reader.take(length)?.to_vec())
             .map_err(|_| StateError::Field { name: "token" })?;
         let abi = reader.one_of("FMI version")?;
-        let variables = Variables {
-            kind: reader.one_of("kind")?,
-            dofs: Dofs::from_number(reader.u8()?).ok_or(StateError::Field {
-                name: "degrees of freedom",
-            })?,
-            dependence: Dependence::from_number(reader.u32()?)
-                .ok_or(StateError::Field { name: "joint" })?,
-        };
+        let variables = reader.variables(&identity.variables)?;
         let found = Identity {
             variables,
             abi,
@@ -277,8 +282,10 @@ impl Snapshot {
         let pace = Pace::from_bytes(reader.array()?).ok_or(StateError::Field {
             name: "communication step",
         })?;
-        let values = reader.values(variables, found.interface_type)?;
-        let inputs = InputCourse::from_bytes(reader.array()?).ok_or(StateError::Field {
+        let values = reader.values(&found.variables, found.interface_type)?;
+        let listed = found.variables.listed_inputs();
+        let inputs = InputCourse::from_bytes(reader.take(InputCourse::size(listed))?, listed);
+        let inputs = inputs.ok_or(StateError::Field {
             name: "course of the inputs",
         })?;
         reader.array::<8>()?;
@@ -344,6 +351,29 @@ impl<'a> Reader<'a> {
             .ok_or(StateError::Field { name })
     }
 
+    /// The variables of the FMU that a state is of; `own` are those of this FMU.
+    fn variables(&mut self, own: &Variables) -> Result<Variables, StateError> {
+        if self.rest.first() == Some(&ASSEMBLY) {
+            self.take(6)?;
+            return Ok(match own {
+                Variables::Listed(_) => own.clone(),
+                // of another FMU, whose list is not known here
+                Variables::Built(_) => Variables::Listed(Arc::new(ListedVariables::default())),
+            });
+        }
+        let kind = self.one_of("kind")?;
+        let dofs = Dofs::from_number(self.u8()?).ok_or(StateError::Field {
+            name: "degrees of freedom",
+        })?;
+        let dependence =
+            Dependence::from_number(self.u32()?).ok_or(StateError::Field { name: "joint" })?;
+        Ok(Variables::Built(BuiltVariables {
+            kind,
+            dofs,
+            dependence,
+        }))
+    }
+
     /// The number of numbers that come next.
     fn count(&mut self, expected: usize) -> Result<(), StateError> {
         let found = self.u32()?;
@@ -359,7 +389,7 @@ impl<'a> Reader<'a> {
     /// Everything that an instance remembers as numbers: as many as this build of the library has.
     fn values(
         &mut self,
-        variables: Variables,
+        variables: &Variables,
         interface_type: InterfaceType,
     ) -> Result<Values, StateError> {
         let mut values = Values::at_rest(variables);
@@ -368,9 +398,11 @@ impl<'a> Reader<'a> {
         for place in values.indices() {
             values[place] = self.f64()?;
             if !values[place].is_finite() {
-                return Err(match place.checked_sub(REFERENCE_COUNT) {
-                    Some(index) => StateError::Remembered { index },
-                    None => StateError::Value {
+                return Err(match is_beside(place) {
+                    true => StateError::Remembered {
+                        index: place - REFERENCE_COUNT,
+                    },
+                    false => StateError::Value {
                         name: variables.name(place),
                     },
                 });

@@ -44,7 +44,7 @@ pub(crate) struct Instance {
     /// Whether energies and powers are, though other outputs may not be.
     energies_stale: bool,
     /// Whether that can be: few ask for them.
-    has_energies_apart: bool,
+    has_some_apart: bool,
     event_mode_used: bool,
     access: Access,
 }
@@ -61,7 +61,7 @@ impl Instance {
             variables,
             token: expected,
             values,
-            table,
+            equations,
         } = file;
         if token != expected {
             return Err(Refusal::Token {
@@ -73,24 +73,24 @@ impl Instance {
         let mut values = values;
         values.set_inner(Inner::of(interface_type));
         Ok(Self {
+            roles: variables.roles(),
+            model: models::model(equations),
+            inputs: InputCourse::held(variables.listed_inputs()),
+            has_some_apart: variables.has_some_apart(),
             identity: Arc::new(Identity {
                 variables,
                 abi,
                 interface_type,
                 token: expected,
             }),
-            roles: variables.roles(),
-            model: models::model(variables, table),
             start: StartValues::of(&values),
             values,
-            inputs: InputCourse::HELD,
             mode: Mode::Instantiated,
             stop_s: None,
             pace: Pace::NONE,
             parameters_changed: true,
             outputs_stale: true,
             energies_stale: true,
-            has_energies_apart: variables.dependence.remembers(),
             event_mode_used: false,
             access: Access::NONE,
         })
@@ -172,7 +172,7 @@ impl Instance {
     /// Back to where the instance was after instantiation.
     pub(crate) fn reset(&mut self) {
         self.start.restore(&mut self.values);
-        self.inputs = InputCourse::HELD;
+        self.inputs.hold();
         self.mode = Mode::Instantiated;
         self.stop_s = None;
         self.pace = Pace::NONE;

@@ -1,6 +1,12 @@
 //! Tables of variables, generated from `modelDescription/*.xml`, the table of DOFs and the laws of the joint.
 
-use std::fmt;
+mod listed;
+mod variables;
+
+pub(crate) use listed::{FIRST_LISTED, ListedVariables};
+pub(crate) use variables::Variables;
+
+use std::{borrow::Cow, fmt};
 
 use bolted_joint_dynamics::{
     DOF_COUNT, DOFS, SPACE, SPACE_COUNT,
@@ -12,13 +18,16 @@ use bolted_joint_dynamics::{
 
 include!(concat!(env!("OUT_DIR"), "/interface.rs"));
 
+/// Name of a variable: one that the build knows, or one that a start-value file has given.
+pub(crate) type Name = Cow<'static, str>;
+
 /// One variable of an FMU.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Variable {
     /// Structured name.
-    pub(crate) name: &'static str,
+    pub(crate) name: Name,
     /// Coherent SI unit.
-    pub(crate) unit: &'static str,
+    pub(crate) unit: Name,
     /// What it is to the library.
     pub(crate) role: Role,
     /// Start value that the FMU has before its start-value file and the importer set others; 0 for what is calculated.
@@ -124,6 +133,8 @@ pub(crate) enum Role {
     Parameter,
     /// Continuous input.
     Input,
+    /// Continuous input that cannot have every value.
+    LimitedInput,
     /// Continuous state, exposed as an output.
     State,
     /// Calculated output.
@@ -140,12 +151,19 @@ pub(crate) enum Role {
 }
 
 impl Role {
+    /// Whether it is an input.
+    pub(crate) const fn is_input(self) -> bool {
+        matches!(self, Self::Input | Self::LimitedInput)
+    }
+
     /// Its bit in a [`Roles`] set. The calculated local variables share one.
-    const fn bit(self) -> u8 {
+    const fn bit(self) -> u16 {
         match self {
             Self::Independent => 1,
             Self::Parameter => 2,
             Self::Input => 4,
+            // in no set of roles by itself
+            Self::LimitedInput => 4 | LIMITED,
             Self::State => 8,
             Self::Output => 16,
             Self::Derivative | Self::Indicator => 32,
@@ -160,7 +178,7 @@ impl fmt::Display for Role {
         f.write_str(match self {
             Self::Independent => "the independent variable",
             Self::Parameter => "a parameter",
-            Self::Input => "an input",
+            Self::Input | Self::LimitedInput => "an input",
             Self::State => "a state",
             Self::Output => "a calculated output",
             Self::Derivative => "a calculated derivative",
@@ -173,7 +191,12 @@ impl fmt::Display for Role {
 
 /// A set of roles; empty for a value reference that the FMU does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Roles(u8);
+pub(crate) struct Roles(u16);
+
+/// Beside the bits of roles: an input that is limited.
+const LIMITED: u16 = 256;
+/// Beside the bits of roles: what is calculated apart from other outputs, because it takes longer and few ask for it.
+const APART: u16 = 512;
 
 impl Roles {
     /// No role at all.
@@ -189,6 +212,11 @@ impl Roles {
         }
         Self(bits)
     }
+
+    /// Inputs that cannot have every value.
+    pub(crate) const LIMITED: Self = Self(LIMITED);
+    /// What is calculated apart from other outputs.
+    pub(crate) const APART: Self = Self(APART);
 
     /// Both sets together.
     pub(crate) const fn with(self, other: Self) -> Self {
@@ -264,6 +292,11 @@ const fn is_further(index: usize) -> bool {
         row += 1;
     }
     false
+}
+
+/// Whether a value of this index is remembered beside the variables.
+pub(crate) fn is_beside(index: usize) -> bool {
+    (REFERENCE_COUNT..VALUE_COUNT).contains(&index)
 }
 
 /// What is remembered of a joint over the preload, or with memory, beside its variables, as indices.
@@ -343,7 +376,7 @@ impl InterfaceType {
     }
 }
 
-/// Which of the two FMUs.
+/// Which of the FMUs whose variables the build knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// The joint alone: motion in, loads out.
@@ -489,7 +522,7 @@ pub(crate) fn declared(reference: usize) -> Option<&'static Variable> {
 /// Variables that one FMU has: a table of its kind, without those of DOFs that its joint does not have, and without those that
 /// only other kinds of joints have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Variables {
+pub(crate) struct BuiltVariables {
     /// Which of the two FMUs.
     pub(crate) kind: Kind,
     /// Degrees of freedom of its joint.
@@ -498,7 +531,7 @@ pub(crate) struct Variables {
     pub(crate) dependence: Dependence,
 }
 
-impl Variables {
+impl BuiltVariables {
     /// The variable with this value reference, if the FMU has one.
     pub(crate) fn get(self, reference: usize) -> Option<&'static Variable> {
         let table = match self.kind {
@@ -515,61 +548,19 @@ impl Variables {
             })
     }
 
-    /// All variables with their value references, in ascending order.
-    pub(crate) fn iter(self) -> impl Iterator<Item = (usize, &'static Variable)> {
-        (0..REFERENCE_COUNT).filter_map(move |reference| Some((reference, self.get(reference)?)))
-    }
-
-    /// Continuous states, in the order of the model structure.
-    pub(crate) fn continuous_states(self) -> impl Iterator<Item = &'static ContinuousState> {
-        let states = match self.kind {
+    /// Continuous states, in the order of the model structure, of all joints.
+    const fn states(self) -> &'static [ContinuousState] {
+        match self.kind {
             Kind::Element => ELEMENT_STATES,
             Kind::Lap => LAP_STATES,
-        };
-        states.iter().filter(move |state| {
-            let has = |reference| self.get(reference).is_some();
-            has(state.reference) && has(state.derivative)
-        })
+        }
     }
 
-    /// Value references of the event indicators, in the order of the model structure.
-    pub(crate) fn event_indicators(self) -> impl Iterator<Item = usize> {
-        let indicators = match self.kind {
+    /// Value references of the event indicators, in the order of the model structure, of all joints.
+    const fn indicators(self) -> &'static [usize] {
+        match self.kind {
             Kind::Element => ELEMENT_INDICATORS,
             Kind::Lap => LAP_INDICATORS,
-        };
-        let has = move |reference: &usize| self.get(*reference).is_some();
-        indicators.iter().copied().filter(has)
-    }
-
-    /// Name of the variable with this value reference, for messages.
-    pub(crate) fn name(self, reference: usize) -> &'static str {
-        self.get(reference)
-            .map_or("(no variable)", |variable| variable.name)
-    }
-
-    /// Role of each value reference, up to the last that there is.
-    pub(crate) fn roles(self) -> Box<[Roles]> {
-        let count = self.iter().last().map_or(0, |(last, _)| last + 1);
-        let role = |index| {
-            self.get(index)
-                .map_or(Roles::NONE, |variable| Roles::of(&[variable.role]))
-        };
-        (0..count).map(role).collect()
-    }
-
-    /// Start values of the model description.
-    pub(crate) fn start(self) -> Values {
-        let mut values = Values::at_rest(self);
-        for (reference, variable) in self.iter() {
-            values[reference] = variable.start;
         }
-        // nothing moves these masses, but they are divided by
-        for row in self.dofs.at_rest() {
-            for side in [&reference::A_INERTIA, &reference::B_INERTIA] {
-                values[side[row]] = 1.0;
-            }
-        }
-        values
     }
 }

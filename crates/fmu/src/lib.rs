@@ -6,6 +6,7 @@
 //! statuses and log messages, by means of `abi`.
 
 mod abi;
+mod assembly_file;
 mod fmu_state;
 mod functions;
 mod input_course;

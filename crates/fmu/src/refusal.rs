@@ -7,7 +7,7 @@ pub(crate) use warning::{Active, Limit, Reached, Warning};
 
 use crate::{
     fmu_state::StateError,
-    interface::{InterfaceType, Role},
+    interface::{InterfaceType, Name, Role},
     mode::Mode,
     resources::ResourceError,
     version::Abi,
@@ -39,21 +39,14 @@ pub(crate) enum Refusal {
     UnknownReference { reference: u32 },
     /// The variable exists, but not in this type.
     NotOfType {
-        name: &'static str,
+        name: Name,
         own: &'static str,
         asked: &'static str,
     },
     /// The variable must not be set, or not in this mode.
-    NotSettable {
-        name: &'static str,
-        role: Role,
-        mode: Mode,
-    },
+    NotSettable { name: Name, role: Role, mode: Mode },
     /// The variable is out of reach within a communication step.
-    NotIntermediate {
-        name: &'static str,
-        reason: NotIntermediate,
-    },
+    NotIntermediate { name: Name, reason: NotIntermediate },
     /// The importer asks for an early return that it was not offered.
     EarlyReturnNotAllowed,
     /// The importer asks for an early return outside of the step.
@@ -65,13 +58,9 @@ pub(crate) enum Refusal {
     /// Variables are required within communication steps, but there is no callback.
     NoIntermediateUpdate,
     /// A value to set is NaN or infinite.
-    ValueNotFinite { name: &'static str, value: f64 },
+    ValueNotFinite { name: Name, value: f64 },
     /// A calculated output is NaN or infinite.
-    OutputNotFinite {
-        name: &'static str,
-        unit: &'static str,
-        time_s: f64,
-    },
+    OutputNotFinite { name: Name, unit: Name, time_s: f64 },
     /// There is no joint at this preload; `time_s` where the simulation has come to it within a step.
     Preload {
         found_n_m: f64,
@@ -80,31 +69,27 @@ pub(crate) enum Refusal {
         time_s: Option<f64>,
     },
     /// A derivative with respect to time is asked of a variable that has none to give.
-    NoOutputDerivative { name: &'static str, role: Role },
+    NoOutputDerivative { name: Name, role: Role },
     /// A derivative with respect to time is given for a variable that is no input.
-    NoInputDerivative { name: &'static str, role: Role },
+    NoInputDerivative { name: Name, role: Role },
     /// A derivative with respect to time has an order that is not offered.
     DerivativeOrder {
-        name: &'static str,
+        name: Name,
         found: i32,
         highest: usize,
     },
     /// The derivatives of an input take it past what is finite within a step.
-    InputNotFinite { name: &'static str, time_s: f64 },
+    InputNotFinite { name: Name, time_s: f64 },
     /// There are no partial derivatives in this mode.
     NoDerivatives { mode: Mode },
     /// The variable is no unknown that can be differentiated in this mode.
-    NotUnknown {
-        name: &'static str,
-        role: Role,
-        mode: Mode,
-    },
+    NotUnknown { name: Name, role: Role, mode: Mode },
     /// The variable is no known that can be differentiated by.
-    NotKnown { name: &'static str, role: Role },
+    NotKnown { name: Name, role: Role },
     /// A seed is NaN or infinite.
-    SeedNotFinite { name: &'static str, seed: f64 },
+    SeedNotFinite { name: Name, seed: f64 },
     /// A partial derivative overflows.
-    DerivativeNotFinite { name: &'static str, time_s: f64 },
+    DerivativeNotFinite { name: Name, time_s: f64 },
     /// A pointer argument is null.
     NullPointer { argument: &'static str },
     /// A pointer argument is not aligned, or the array behind it cannot exist.
@@ -154,11 +139,7 @@ pub(crate) enum Refusal {
         most: u32,
     },
     /// An inertia is not positive.
-    Inertia {
-        name: &'static str,
-        unit: &'static str,
-        found: f64,
-    },
+    Inertia { name: Name, unit: Name, found: f64 },
     /// A parameter is outside of the range of its law.
     OutsideLaw {
         name: String,
@@ -175,13 +156,15 @@ pub(crate) enum Refusal {
     Escape {
         a: &'static str,
         b: &'static str,
-        unit: &'static str,
+        unit: Name,
         relative: f64,
         amplitude: f64,
         time_s: f64,
     },
     /// A state is NaN or infinite.
-    StateNotFinite { name: &'static str, time_s: f64 },
+    StateNotFinite { name: Name, time_s: f64 },
+    /// The motion would grow beyond all bounds within a step.
+    GrowsWithinStep { interval_s: f64, time_s: f64 },
     /// A log category that the model description does not define.
     UnknownCategory { found: String },
     /// An FMU state that this library did not make.

@@ -15,7 +15,7 @@ use crate::{
 const START_FILE: &str = "start.txt";
 
 /// No start-value file is that large, in bytes.
-const LARGEST_FILE: u64 = 1 << 20;
+const LARGEST_FILE: u64 = 1 << 26;
 
 /// Why the resources cannot be used.
 #[derive(Clone, Debug, PartialEq)]

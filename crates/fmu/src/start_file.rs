@@ -1,11 +1,12 @@
-//! The start-value file `resources/start.txt`: which model the FMU is, its token and its parameters.
+//! The start-value file `resources/start.txt`: which model the FMU is, its token and its parameters, or its equations.
 
-use std::{fmt, str::Lines};
+use std::{fmt, str::Lines, sync::Arc};
 
 use bolted_joint_dynamics::{Beyond, TableDefect};
 
 use crate::{
-    interface::{Dependence, Dofs, Kind, Role, Values, Variables, reference},
+    assembly_file::{self, AssemblyFile},
+    interface::{BuiltVariables, Dependence, Dofs, Kind, Name, Role, Values, Variables, reference},
     preload_table::PreloadTable,
 };
 
@@ -21,8 +22,19 @@ pub(crate) struct StartFile {
     pub(crate) token: String,
     /// Start values of all variables: parameters and preload from the file, the rest from the model description.
     pub(crate) values: Values,
-    /// The joint over the preload, where it is one.
-    pub(crate) table: Option<PreloadTable>,
+    /// What beside the parameters gives its equations.
+    pub(crate) equations: Equations,
+}
+
+/// What a model's equations come from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Equations {
+    /// From the parameters of an element or a lap.
+    Parameters(BuiltVariables),
+    /// From them and from the table of a joint over the preload.
+    OverPreload(BuiltVariables, PreloadTable),
+    /// From the structures and joints of an assembly.
+    Assembly(Box<AssemblyFile>),
 }
 
 /// Why a start-value file is refused. Line numbers start at 1.
@@ -49,11 +61,15 @@ pub(crate) enum Fault {
     /// No parameter of this FMU has that name.
     UnknownName { found: String },
     /// The parameter was given before.
-    Duplicate { name: &'static str },
+    Duplicate { name: Name },
     /// The value is not a finite number.
-    NotFinite { name: &'static str, found: String },
+    NotFinite { name: Name, found: String },
     /// The file ends without this parameter.
-    Missing { name: &'static str },
+    Missing { name: Name },
+    /// A line has not so many finite numbers.
+    NotNumbers { found: String, count: usize },
+    /// What the file lists does not belong together.
+    Contradiction { what: &'static str },
     /// A line of the table has not the numbers that it must have.
     NotARow { found: String, columns: usize },
     /// The table gives no joint.
@@ -90,6 +106,11 @@ impl fmt::Display for StartFileError {
                 )?;
             }
             Fault::Missing { name } => write!(f, "the file ends without parameter {name}")?,
+            Fault::NotNumbers { found, count } => write!(
+                f,
+                "found \"{found}\", expected {count} finite numbers, separated by spaces"
+            )?,
+            Fault::Contradiction { what } => write!(f, "{what}")?,
             Fault::NotARow { found, columns } => write!(
                 f,
                 "found \"{found}\", expected a line of the table: {columns} finite numbers, separated by spaces"
@@ -119,30 +140,35 @@ impl StartFile {
         header.next("", "the header bolted-joint-start/1", |found| {
             (found == HEADER).then_some(())
         })?;
-        let kind = header.next("model ", "\"model element\" or \"model lap\"", |found| {
-            [Kind::Element, Kind::Lap]
-                .into_iter()
-                .find(|kind| kind.name() == found)
+        let expected = "\"model element\", \"model lap\" or \"model assembly\"";
+        let kind = header.next("model ", expected, |found| {
+            let mut kinds = [Kind::Element, Kind::Lap].into_iter();
+            match kinds.find(|kind| kind.name() == found) {
+                None if found == assembly_file::NAME => Some(None),
+                kind => kind.map(Some),
+            }
         })?;
+        let Some(kind) = kind else {
+            return Self::of_assembly(header);
+        };
         let expected =
             "\"dofs 1\", \"dofs 2\", or \"dofs\" and some of x y z rx ry rz in this order";
         let dofs = header.next("dofs ", expected, Dofs::from_text)?;
-        let token = header.next("token ", "\"token\" and the instantiation token", |found| {
-            (!found.trim().is_empty()).then(|| found.to_owned())
-        })?;
+        let token = header.token()?;
         let dependence = header.laws()?.unwrap_or(Dependence::Constant);
         let table = header.table(dofs, dependence.remembers())?;
         let dependence = match table {
             Some(_) => dependence.over_preload(),
             None => dependence,
         };
-        let variables = Variables {
+        let built = BuiltVariables {
             kind,
             dofs,
             dependence,
         };
+        let variables = Variables::Built(built);
         let last = header.line;
-        let values = parse_parameters(header, variables)?;
+        let values = parse_parameters(header, &variables)?;
         if let Some(table) = &table
             && !table.covers(values[reference::PRELOAD])
         {
@@ -158,20 +184,36 @@ impl StartFile {
             variables,
             token,
             values,
-            table,
+            equations: match table {
+                Some(table) => Equations::OverPreload(built, table),
+                None => Equations::Parameters(built),
+            },
+        })
+    }
+
+    fn of_assembly(mut header: Header<'_>) -> Result<Self, StartFileError> {
+        let token = header.token()?;
+        let (listed, file) = assembly_file::parse(&mut header)?;
+        let variables = Variables::Listed(Arc::new(listed));
+        Ok(Self {
+            values: variables.start(),
+            variables,
+            token,
+            equations: Equations::Assembly(Box::new(file)),
         })
     }
 }
 
 /// The lines of fixed meaning at the top.
-struct Header<'a> {
+pub(crate) struct Header<'a> {
     path: &'a str,
     lines: Lines<'a>,
     line: usize,
 }
 
 impl Header<'_> {
-    fn next<T>(
+    /// What a line that begins with `prefix` has behind it, read.
+    pub(crate) fn next<T>(
         &mut self,
         prefix: &str,
         expected: &'static str,
@@ -186,8 +228,51 @@ impl Header<'_> {
         })
     }
 
+    /// So many lines, each read.
+    pub(crate) fn lines<T>(
+        &mut self,
+        count: usize,
+        expected: &'static str,
+        read: impl Fn(&str) -> Option<T>,
+    ) -> Result<Vec<T>, StartFileError> {
+        // as long as there are lines, whatever the file says of their number
+        let mut all = Vec::new();
+        for _ in 0..count {
+            all.push(self.next("", expected, &read)?);
+        }
+        Ok(all)
+    }
+
+    /// A line of so many finite numbers.
+    pub(crate) fn numbers(&mut self, count: usize) -> Result<Vec<f64>, StartFileError> {
+        self.line += 1;
+        let found = self.lines.next().unwrap_or("");
+        finite_numbers(found)
+            .filter(|numbers| numbers.len() == count)
+            .ok_or_else(|| {
+                let found = shortened(found);
+                self.refuse(self.line, Fault::NotNumbers { found, count })
+            })
+    }
+
+    fn token(&mut self) -> Result<String, StartFileError> {
+        self.next("token ", "\"token\" and the instantiation token", |found| {
+            (!found.trim().is_empty()).then(|| found.to_owned())
+        })
+    }
+
+    /// Whether there are no more lines.
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.lines.clone().next().is_none()
+    }
+
+    /// Why the file is refused at the line that was read last.
+    pub(crate) fn refuse_here(&self, fault: Fault) -> StartFileError {
+        self.refuse(self.line, fault)
+    }
+
     /// Whether the line that comes next begins like this.
-    fn goes_on_with(&self, prefix: &str) -> bool {
+    pub(crate) fn goes_on_with(&self, prefix: &str) -> bool {
         let next = self.lines.clone().next();
         next.is_some_and(|line| line.starts_with(prefix))
     }
@@ -204,7 +289,7 @@ impl Header<'_> {
 
     /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, of a joint that remembers
     /// the preload that its friction is stated at, and the lines.
-    fn table(
+    pub(crate) fn table(
         &mut self,
         dofs: Dofs,
         remembers: bool,
@@ -234,11 +319,7 @@ impl Header<'_> {
         for _ in 0..count {
             self.line += 1;
             let line = self.lines.next().unwrap_or("");
-            let numbers: Option<Vec<f64>> = line
-                .split(' ')
-                .map(|number| number.parse().ok().filter(|value: &f64| value.is_finite()))
-                .collect();
-            match numbers {
+            match finite_numbers(line) {
                 Some(row) if row.len() == columns => rows.push(row),
                 _ => {
                     let found = shortened(line);
@@ -265,19 +346,26 @@ fn refuse(path: &str, line: usize, fault: Fault) -> StartFileError {
     }
 }
 
-fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, StartFileError> {
+/// Finite numbers, separated by spaces.
+fn finite_numbers(line: &str) -> Option<Vec<f64>> {
+    line.split(' ')
+        .map(|number| number.parse().ok().filter(|value: &f64| value.is_finite()))
+        .collect()
+}
+
+fn parse_parameters(header: Header<'_>, variables: &Variables) -> Result<Values, StartFileError> {
     let Header {
         path,
         lines,
         mut line,
     } = header;
     let refuse = |line: usize, fault: Fault| refuse(path, line, fault);
-    let parameters: Vec<(usize, &'static str)> = variables
+    let parameters: Vec<(usize, &Name)> = variables
         .iter()
         .filter(|(index, variable)| {
             variable.role == Role::Parameter || *index == reference::PRELOAD
         })
-        .map(|(reference, variable)| (reference, variable.name))
+        .map(|(reference, variable)| (reference, &variable.name))
         .collect();
     let mut values = variables.start();
     let mut given: Vec<usize> = Vec::with_capacity(parameters.len());
@@ -287,7 +375,11 @@ fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, 
             let found = shortened(text);
             return Err(refuse(line, Fault::NotAPair { found }));
         };
-        let Some(&(reference, name)) = parameters.iter().find(|(_, name)| *name == found) else {
+        let Some((reference, name)) = parameters
+            .iter()
+            .find(|(_, name)| *name == found)
+            .map(|&(reference, name)| (reference, name.clone()))
+        else {
             let found = shortened(found);
             return Err(refuse(line, Fault::UnknownName { found }));
         };
@@ -306,7 +398,7 @@ fn parse_parameters(header: Header<'_>, variables: Variables) -> Result<Values, 
         .iter()
         .find(|(reference, _)| !given.contains(reference))
     {
-        Some(&(_, name)) => Err(refuse(line, Fault::Missing { name })),
+        Some(&(_, name)) => Err(refuse(line, Fault::Missing { name: name.clone() })),
         None => Ok(values),
     }
 }

@@ -14,8 +14,8 @@ use bolted_joint_dynamics::{
 };
 
 use crate::interface::{
-    FURTHER, InterfaceType, VALUE_COUNT, Variables, first_row,
-    reference::{INNER_RATES, INNER_STATES, LAW_MEMORY},
+    FIRST_LISTED, FURTHER, InterfaceType, REFERENCE_COUNT, VALUE_COUNT, Variables, first_row,
+    reference::{INNER_RATES, INNER_STATES, LAW_MEMORY, TIME},
 };
 
 /// Number of values that every FMU has room for.
@@ -27,13 +27,15 @@ const FURTHER_COUNT: usize = FURTHER.end - FURTHER.start;
 /// Values of all variables of an FMU by value reference, and after them what it remembers beside them.
 ///
 /// What few joints need is long, and stands apart where the joint needs it: the variables of laws that stand beside another of
-/// their kind, and what the laws remember.
+/// their kind, and what the laws remember. So does what the start-value file lists.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Values {
     numbers: [f64; COMMON_COUNT],
     /// Of the references [`FURTHER`], or nothing.
     further: Vec<f64>,
-    /// Of each DOF of a joint with memory.
+    /// Of the references from [`FIRST_LISTED`] on.
+    listed: Vec<f64>,
+    /// Of each DOF of a joint with memory; of an assembly, of each on which a joint has laws.
     joint: Vec<DofMemory>,
     /// Of each DOF of a joint with event indicators, for Model Exchange.
     ahead: Vec<Ahead>,
@@ -75,7 +77,8 @@ impl Index<usize> for Values {
         match index {
             _ if index < FURTHER.start => &self.numbers[index],
             _ if index < FURTHER.end => &self.further[index - FURTHER.start],
-            _ => &self.numbers[index - FURTHER_COUNT],
+            _ if index < FIRST_LISTED => &self.numbers[index - FURTHER_COUNT],
+            _ => &self.listed[index - FIRST_LISTED],
         }
     }
 }
@@ -86,7 +89,8 @@ impl IndexMut<usize> for Values {
         match index {
             _ if index < FURTHER.start => &mut self.numbers[index],
             _ if index < FURTHER.end => &mut self.further[index - FURTHER.start],
-            _ => &mut self.numbers[index - FURTHER_COUNT],
+            _ if index < FIRST_LISTED => &mut self.numbers[index - FURTHER_COUNT],
+            _ => &mut self.listed[index - FIRST_LISTED],
         }
     }
 }
@@ -98,6 +102,7 @@ impl Values {
         Self {
             numbers: [0.0; COMMON_COUNT],
             further: vec![0.0; self.further.len()],
+            listed: vec![0.0; self.listed.len()],
             joint: Vec::new(),
             ahead: Vec::new(),
             inner: Inner::Committed,
@@ -105,13 +110,18 @@ impl Values {
     }
 
     /// Zero, of an FMU with these variables, whose joint has not moved yet.
-    pub(crate) fn at_rest(variables: Variables) -> Self {
+    pub(crate) fn at_rest(variables: &Variables) -> Self {
         let has_further = FURTHER
             .into_iter()
             .any(|index| variables.get(index).is_some());
+        let listed = match variables {
+            Variables::Built(_) => 0,
+            Variables::Listed(listed) => listed.len(),
+        };
         Self {
             numbers: [0.0; COMMON_COUNT],
             further: vec![0.0; if has_further { FURTHER_COUNT } else { 0 }],
+            listed: vec![0.0; listed],
             joint: vec![DOF_AT_REST; remembering_dofs(variables)],
             ahead: vec![[0.0; 3]; turning_dofs(variables)],
             inner: Inner::Committed,
@@ -127,9 +137,12 @@ impl Values {
     /// The indices of all values that there are.
     pub(crate) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
         let further = FURTHER.start..FURTHER.start + self.further.len();
-        (0..FURTHER.start)
-            .chain(further)
-            .chain(FURTHER.end..VALUE_COUNT)
+        let listed = FIRST_LISTED..FIRST_LISTED + self.listed.len();
+        let [first, second] = match self.listed.is_empty() {
+            true => [0..FURTHER.start, FURTHER.end..VALUE_COUNT],
+            false => [TIME..TIME + 1, REFERENCE_COUNT..VALUE_COUNT],
+        };
+        first.chain(further).chain(second).chain(listed)
     }
 
     /// The value of this index, if there is one.
@@ -138,7 +151,8 @@ impl Values {
         match index {
             _ if index < FURTHER.start => self.numbers.get_mut(index),
             _ if index < FURTHER.end => self.further.get_mut(index - FURTHER.start),
-            _ => self.numbers.get_mut(index - FURTHER_COUNT),
+            _ if index < FIRST_LISTED => self.numbers.get_mut(index - FURTHER_COUNT),
+            _ => self.listed.get_mut(index - FIRST_LISTED),
         }
     }
 
@@ -370,6 +384,51 @@ impl Values {
         }
     }
 
+    /// What the start-value file lists, from the first on.
+    #[inline]
+    pub(crate) fn listed(&self) -> &[f64] {
+        &self.listed
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub(crate) fn listed_mut(&mut self) -> &mut [f64] {
+        &mut self.listed
+    }
+
+    /// The same beside what laws remember, on each DOF that has any.
+    #[inline]
+    pub(crate) fn listed_beside_memory(&mut self) -> (&mut [f64], &[DofMemory]) {
+        (&mut self.listed, &self.joint)
+    }
+
+    /// What laws remember, on each DOF that has any.
+    #[inline]
+    pub(crate) fn memories(&self) -> &[DofMemory] {
+        &self.joint
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub(crate) fn memories_mut(&mut self) -> &mut [DofMemory] {
+        &mut self.joint
+    }
+
+    /// What event indicators follow from, of each DOF that has some.
+    pub(crate) fn all_ahead(&self) -> &[Ahead] {
+        &self.ahead
+    }
+
+    /// The same to be written, beside what the start-value file lists and what laws remember.
+    pub(crate) fn parts_mut(&mut self) -> (&mut [f64], &mut [DofMemory], &mut [Ahead]) {
+        (&mut self.listed, &mut self.joint, &mut self.ahead)
+    }
+
+    /// Whether what the joint remembers follows from the start values.
+    pub(crate) fn are_starting(&self) -> bool {
+        self.inner == Inner::Starting
+    }
+
     /// What is remembered of the joint, as numbers.
     pub(crate) fn remembered(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());
@@ -406,6 +465,7 @@ impl StartValues {
     pub(crate) fn restore(&self, values: &mut Values) {
         values.numbers.fill(0.0);
         values.further.fill(0.0);
+        values.listed.fill(0.0);
         for &(place, number) in &self.0 {
             values[place as usize] = number;
         }
@@ -414,16 +474,21 @@ impl StartValues {
     }
 }
 
-fn turning_dofs(variables: Variables) -> usize {
-    match variables.event_indicators().next() {
-        Some(_) => variables.dofs.of_model(),
-        None => 0,
+fn turning_dofs(variables: &Variables) -> usize {
+    match variables {
+        Variables::Built(built) => match variables.event_indicators().next() {
+            Some(_) => built.dofs.of_model(),
+            None => 0,
+        },
+        // two for each
+        Variables::Listed(_) => variables.event_indicators().count() / 2,
     }
 }
 
-fn remembering_dofs(variables: Variables) -> usize {
-    match variables.dependence.remembers() {
-        true => variables.dofs.of_model(),
-        false => 0,
+fn remembering_dofs(variables: &Variables) -> usize {
+    match variables {
+        Variables::Built(built) if built.dependence.remembers() => built.dofs.of_model(),
+        Variables::Built(_) => 0,
+        Variables::Listed(listed) => listed.remembering(),
     }
 }

@@ -20,9 +20,7 @@ pub(crate) fn check(
     };
     // Outputs: every output, each once
     let outputs = list("Output", structure.outputs().collect());
-    outputs.check_entries(|variable| {
-        matches!(variable.role, Role::Output | Role::State | Role::InnerState)
-    })?;
+    outputs.check_entries(|variable| variable.is_output)?;
     outputs.check_dependencies()?;
     // Initial unknowns: every output and every derivative that is not given exactly, and every calculated parameter
     let initial = list("InitialUnknown", structure.initial_unknowns().collect());

@@ -16,7 +16,7 @@ pub enum Role {
     Parameter,
     /// Continuous input.
     Input,
-    /// Output whose initial value is known exactly: a continuous state that is exposed.
+    /// What has an initial value that is known exactly: a continuous state, exposed as an output or as a local variable.
     State,
     /// Output whose initial value is calculated, and that is a continuous state.
     InnerState,
@@ -47,6 +47,8 @@ pub struct Variable {
     pub nominal: f64,
     /// Value reference of the variable that this one is the time derivative of.
     pub derivative_of: Option<u32>,
+    /// Whether it is an output.
+    pub is_output: bool,
     /// Whether it can be accessed in Intermediate Update Mode.
     pub intermediate_update: bool,
     /// One line for people.
@@ -89,6 +91,7 @@ impl Variable {
             start,
             unit: declared_type.unit.clone().unwrap_or_default(),
             nominal: declared_type.nominal.unwrap_or(1.0),
+            is_output: declared.causality == Some(Causality::Output),
             derivative_of: declared.derivative,
             intermediate_update: intermediate_update(declared, role)?,
             description,
@@ -135,7 +138,9 @@ fn role(declared: &FmiFloat64) -> Result<Role, DefinitionProblem> {
             Ok(Role::CalculatedParameter)
         }
         (Causality::Input, Variability::Continuous, _) => Ok(Role::Input),
-        (Causality::Output, Variability::Continuous, Some(Initial::Exact)) => Ok(Role::State),
+        (Causality::Output | Causality::Local, Variability::Continuous, Some(Initial::Exact)) => {
+            Ok(Role::State)
+        }
         (Causality::Output, Variability::Continuous, Some(Initial::Calculated)) => Ok(Role::Output),
         (Causality::Local, Variability::Continuous, Some(Initial::Calculated))
             if declared.derivative.is_some() =>

@@ -1,5 +1,6 @@
 //! A short run of the library that is in the FMU for this platform.
 
+mod assembly;
 mod balance;
 mod child;
 mod comparison;
@@ -21,7 +22,8 @@ pub use supervisor::Runner;
 use super::archive::Archive;
 use super::described::Described;
 use super::reference::ReferenceRun;
-use super::{CheckError, Inspection};
+use super::{AssemblyInspection, CheckError, Inspection};
+use assembly::AssemblyPlan;
 use bolted_joint_export::{self as export, EMBEDDED_PLATFORM};
 use comparison::Comparison;
 use excitation::Excitation;
@@ -90,11 +92,70 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
         return Ok(RunReport::without_run(RunVerdict::NoVariables));
     };
     let mut archive = Archive::open(path)?;
+    let (comparison, finding) = comparison(&mut archive, described);
+    let excitation = Excitation::of(&constant, inspection.interface, inspection.step_size_max_s);
+    let plan = Plan::new(excitation, references, described, comparison);
+    let (mut report, values) = carry_out(archive, described, &plan.actions, runner)?;
+    report.findings.splice(0..0, finding);
+    if let Some(values) = values {
+        plan.judge(inspection, joint, &values, &mut report);
+    }
+    Ok(report)
+}
+
+/// Runs the library in the FMU of an assembly, which was inspected before, in a child process: its reference run, its energies, and
+/// a step that is repeated from a saved state.
+///
+/// # Errors
+///
+/// [`CheckError`] if the run cannot be tried; what the FMU does wrong is in the findings.
+pub fn run_assembly(
+    path: &Path,
+    inspection: &AssemblyInspection,
+    runner: &Runner,
+) -> Result<RunReport, CheckError> {
+    let Some(described) = &inspection.described else {
+        return Ok(RunReport::without_run(RunVerdict::NoVariables));
+    };
+    let mut archive = Archive::open(path)?;
+    let (comparison, finding) = comparison(&mut archive, described);
+    let Some(plan) = AssemblyPlan::new(described, inspection.suggested_step_s, comparison) else {
+        return Ok(RunReport::without_run(RunVerdict::NoVariables));
+    };
+    let (mut report, values) = carry_out(archive, described, &plan.actions, runner)?;
+    report.findings.splice(0..0, finding);
+    if let Some(values) = values {
+        plan.judge(&values, &mut report);
+    }
+    Ok(report)
+}
+
+/// The FMU's own reference run, if it has one, or what is wrong with that.
+fn comparison(
+    archive: &mut Archive,
+    described: &Described,
+) -> (Option<Comparison>, Option<String>) {
+    let read = ReferenceRun::read(archive);
+    match read.and_then(|run| run.map(|run| Comparison::new(run, described)).transpose()) {
+        Ok(comparison) => (comparison, None),
+        Err(refused) => (None, Some(refused)),
+    }
+}
+
+/// What each reading of variables gave.
+type Readings = Vec<Vec<f64>>;
+
+/// Lets a child process do this with the library; returns what it read, if it came to its end.
+fn carry_out(
+    mut archive: Archive,
+    described: &Described,
+    actions: &[Action],
+    runner: &Runner,
+) -> Result<(RunReport, Option<Readings>), CheckError> {
     let platform = platform(described.version);
     let Some(library) = library_entry(&archive.names(), platform, described) else {
-        return Ok(RunReport::without_run(RunVerdict::NoLibrary(
-            platform.to_owned(),
-        )));
+        let verdict = RunVerdict::NoLibrary(platform.to_owned());
+        return Ok((RunReport::without_run(verdict), None));
     };
     let folder = tempfile::Builder::new().prefix("bolted joint ").tempdir()?;
     let unpacked = folder.path().join("fmu");
@@ -102,33 +163,18 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
         let mut report = RunReport::without_run(RunVerdict::Failed);
         let finding = format!("run: the FMU cannot be unpacked and run: {refused}");
         report.findings.push(finding);
-        return Ok(report);
+        return Ok((report, None));
     }
-
-    let excitation = Excitation::of(&constant, inspection.interface, inspection.step_size_max_s);
-    let mut findings = Vec::new();
-    let comparison = match ReferenceRun::read(&mut archive)
-        .and_then(|run| run.map(|run| Comparison::new(run, described)).transpose())
-    {
-        Ok(comparison) => comparison,
-        Err(refused) => {
-            findings.push(refused);
-            None
-        }
-    };
-    let plan = Plan::new(excitation, references, described, comparison);
     let script = Script {
         library: unpacked.join(library),
         version: described.version,
         token: described.token.clone(),
         resources: unpacked.join("resources"),
-        actions: plan.actions.clone(),
+        actions: actions.to_vec(),
     };
     let ran = runner.run(&script, folder.path(), &unpacked)?;
     let mut report = RunReport::without_run(RunVerdict::Ran);
-    report.findings = findings;
-    report.steps = plan
-        .actions
+    report.steps = actions
         .iter()
         .filter(|action| matches!(action, Action::Step { .. }))
         .count();
@@ -139,14 +185,12 @@ pub fn run(path: &Path, inspection: &Inspection, runner: &Runner) -> Result<RunR
             ran.printed
         ));
     }
-    match ran.failure {
-        Some(failure) => {
-            report.verdict = RunVerdict::Failed;
-            report.findings.push(format!("run: {failure}"));
-        }
-        None => plan.judge(inspection, joint, &ran.values, &mut report),
+    if let Some(failure) = ran.failure {
+        report.verdict = RunVerdict::Failed;
+        report.findings.push(format!("run: {failure}"));
+        return Ok((report, None));
     }
-    Ok(report)
+    Ok((report, Some(ran.values)))
 }
 
 /// Folder of this platform below `binaries`.

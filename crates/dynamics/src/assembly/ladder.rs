@@ -2,12 +2,14 @@
 
 use super::{
     matrix::Matrix,
-    propagator::{Blocks, POWERS},
+    propagator::{Blocks, POWERS, Propagator},
     system::System,
 };
 
-/// How often a step is halved where the joints ask for it.
-pub(super) const HALVINGS: usize = 8;
+/// How often a step is halved where the joints are too stiff for it.
+pub(super) const HALVINGS: usize = 12;
+/// How often one that is short enough is halved where a joint turns or passes a corner within it.
+pub(super) const HALVINGS_AT_EVENTS: usize = 8;
 
 /// One length of step.
 #[derive(Clone, Debug)]
@@ -25,8 +27,8 @@ pub(super) struct Rung {
 pub(super) struct Middle {
     /// Relative motion at half the step by the state at its beginning, 2d × 2n.
     pub(super) by_state: Matrix,
-    /// … by the loads at its beginning and by how far they have come at half the step, 2d × m.
-    pub(super) by_loads: [Matrix; 2],
+    /// … by the loads' powers of time over that half, 2d × m.
+    pub(super) by_loads: [Matrix; POWERS],
     /// i₁, i₁ − 2 i₂ and 2 i₂ as relative motions, 2d × d.
     pub(super) of_half: [Matrix; 3],
     /// j₁ − 2 j₂ and 2 j₂ as relative motions, 2d × d.
@@ -43,26 +45,28 @@ impl Ladder {
     /// For steps of `length_s` (s); `None` where the exponential is not finite.
     pub(super) fn new(system: &System, length_s: f64) -> Option<Self> {
         if system.laws.is_empty() {
-            let whole = Blocks::new(system, length_s)?;
             let rung = Rung {
                 length_s,
-                whole,
+                whole: Propagator::new(system, length_s, 0)?.blocks(),
                 middle: None,
             };
             return Some(Self { rungs: vec![rung] });
         }
         let length = |level: usize| length_s * 0.5_f64.powi(level as i32);
         let mut rungs = Vec::with_capacity(HALVINGS + 1);
-        let mut whole = Blocks::new(system, length_s)?;
-        for level in 0..=HALVINGS {
-            let half = Blocks::new(system, length(level + 1))?;
+        let mut propagator = Propagator::new(system, length_s, HALVINGS + 1)?;
+        let mut half = propagator.blocks();
+        for level in (0..=HALVINGS).rev() {
+            propagator = propagator.doubled()?;
+            let whole = propagator.blocks();
             rungs.push(Rung {
                 length_s: length(level),
                 middle: Some(Middle::of(system, &whole, &half)),
-                whole,
+                whole: whole.clone(),
             });
-            whole = half;
+            half = whole;
         }
+        rungs.reverse();
         Some(Self { rungs })
     }
 }
@@ -79,7 +83,7 @@ impl Middle {
         let [j1, j2] = [0, 1].map(|power| of_forces(whole, power));
         Self {
             by_state: rows.product(&half.state),
-            by_loads: [of_loads(&half.by[0]), of_loads(&half.by[1])],
+            by_loads: half.by.each_ref().map(of_loads),
             of_half: [i1.clone(), i1.plus(-2.0, &i2), i2.times(2.0)],
             of_whole: [j1.plus(-2.0, &j2), j2.times(2.0)],
         }
@@ -94,5 +98,3 @@ fn relative_rows(system: &System) -> Matrix {
     rows.set_block([d, n], &system.rows);
     rows
 }
-
-const _: () = assert!(POWERS == 3, "the scheme's forces are quadratic in time");

@@ -3,6 +3,7 @@
 //! The linear part is propagated exactly, at any length of step; only the joints' own frequency limits the step, and that only
 //! where their laws are not linear.
 
+mod equations;
 mod exponential;
 mod ladder;
 mod matrix;
@@ -12,6 +13,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
+pub use equations::AssemblyMotion;
 pub use matrix::Matrix;
-pub use steps::{AssemblyState, AssemblySteps};
+pub use steps::{AssemblyState, AssemblySteps, TOLERANCE};
 pub use system::{Assembly, AssemblyJoint};

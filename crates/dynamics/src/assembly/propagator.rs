@@ -1,45 +1,52 @@
 //! What an assembly's state becomes over a step of a given length: exactly, for loads and joint forces that are polynomials of
 //! time.
 //!
-//! With y = (q, q̇), ẏ = A y + X w, w = (u, f), X = (0; B, −Sᵀ), and w(t) = w₀ + w₁ t + w₂ t²/2:
+//! With y = (q, q̇), ẏ = A y + X w, w = (u, f), X = (0; B, −Sᵀ), and w(t) = w₀ + w₁ θ + w₂ θ²/2 + w₃ θ³/6 with θ = t/h:
 //!
-//! y(h) = E y + hφ₁X w₀ + h²φ₂X w₁ + h³φ₃X w₂,  E = φ₀ = e^{hA},  φ_{k+1} = (φ_k − 1/k!)/(hA)
+//! y(h) = E y + hφ₁X w₀ + hφ₂X w₁ + hφ₃X w₂ + hφ₄X w₃,  E = φ₀ = e^{hA},  φ_{k+1} = (φ_k − 1/k!)/(hA)
 //!
 //! All of them, and the integrals of the motion that the work of the forces takes, are blocks of one exponential, with no
-//! inverse, so that motions of free bodies need no care.
+//! inverse, so that motions of free bodies need no care. That of twice the length is its square.
 
-use super::{exponential::exponential, matrix::Matrix, system::System};
+use super::{exponential::Growth, matrix::Matrix, system::System};
 
-/// Powers of time that the loads and joint forces of a step have: constant, linear, quadratic.
-pub(super) const POWERS: usize = 3;
+/// Powers of time that the loads and joint forces of a step have: constant to cubic.
+pub(super) const POWERS: usize = 4;
+/// Integrals of the motion over the step that the work of the forces takes: as often integrated.
+pub(super) const MOMENTS: usize = POWERS - 1;
 
 /// Blocks of the exponential for one length.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     /// E, 2n × 2n.
     pub(super) state: Matrix,
-    /// hφ₁X, hφ₂X and hφ₃X, 2n × (m + d).
+    /// hφ₁X to hφ₄X, 2n × (m + d).
     pub(super) by: [Matrix; POWERS],
-    /// What ∫ Rq dt takes of y, with R = (Bᵀ; S): (m + d) × 2n.
-    pub(super) once: Matrix,
-    /// What it takes of w₀, h w₁ and h² w₂.
-    pub(super) once_by: [Matrix; POWERS],
-    /// The same of the integral over the integral.
-    pub(super) twice: Matrix,
-    pub(super) twice_by: [Matrix; POWERS],
+    /// What ∫ Rq dθ, with R = (Bᵀ; S), and the integrals over it take of y: (m + d) × 2n.
+    pub(super) moments: [Matrix; MOMENTS],
+    /// What they take of w₀ to w₃.
+    pub(super) moments_by: [[Matrix; POWERS]; MOMENTS],
 }
 
-impl Blocks {
-    /// Those for steps of `length_s` (s); `None` where they are not finite.
-    pub(super) fn new(system: &System, length_s: f64) -> Option<Self> {
+/// The exponential itself, in (D q, q̇) and in parts θ of the longest length.
+#[derive(Clone, Debug)]
+pub(super) struct Propagator<'s> {
+    system: &'s System,
+    scale: Vec<f64>,
+    growth: Growth,
+    /// How often the length is half of the longest.
+    level: i32,
+}
+
+impl<'s> Propagator<'s> {
+    /// That of steps of `length_s` (s) halved so many times; `None` where it is not finite.
+    pub(super) fn new(system: &'s System, length_s: f64, level: usize) -> Option<Self> {
         let n = system.size;
-        let forces = system.loads + system.laws.len();
-        let scale = scale(system);
+        let rows = Rows::of(system);
         // in (D q, q̇) all entries of A are frequencies, which keeps the digits
-        let h = length_s;
-        let mut whole = Matrix::zeros(2 * n + 5 * forces, 2 * n + 5 * forces);
-        let [twice, once, y] = [0, forces, 2 * forces];
-        let w = |power: usize| y + 2 * n + power * forces;
+        let (h, scale) = (length_s, scale(system));
+        let mut whole = Matrix::zeros(rows.count(), rows.count());
+        let y = rows.y();
         for i in 0..n {
             whole[(y + i, y + n + i)] = h * scale[i];
             for j in 0..n {
@@ -47,44 +54,111 @@ impl Blocks {
                 whole[(y + n + i, y + n + j)] = -h * system.damping[(i, j)];
             }
         }
-        for p in 0..forces {
-            // z̈ = R q
-            whole[(twice + p, once + p)] = 1.0;
+        for p in 0..rows.forces {
+            // dz₁/dθ = R q, dz₂/dθ = z₁ …
+            for moment in 1..MOMENTS {
+                whole[(rows.z(moment) + p, rows.z(moment - 1) + p)] = 1.0;
+            }
             for j in 0..n {
                 let row = force_row(system, p, j);
                 let sign = if p < system.loads { 1.0 } else { -1.0 };
-                whole[(once + p, y + j)] = row / scale[j];
-                whole[(y + n + j, w(0) + p)] = h * sign * row;
+                whole[(rows.z(0) + p, y + j)] = row / scale[j];
+                whole[(y + n + j, rows.w(0) + p)] = h * sign * row;
             }
             for power in 1..POWERS {
-                whole[(w(power - 1) + p, w(power) + p)] = 1.0;
+                whole[(rows.w(power - 1) + p, rows.w(power) + p)] = 1.0;
             }
         }
-        let whole = exponential(&whole)?;
+        let level = level as i32;
+        Some(Self {
+            system,
+            scale,
+            growth: Growth::of(&whole.times(0.5_f64.powi(level)))?,
+            level,
+        })
+    }
+
+    /// That of steps of twice the length; `None` where it is not finite.
+    pub(super) fn doubled(&self) -> Option<Self> {
+        Some(Self {
+            system: self.system,
+            scale: self.scale.clone(),
+            growth: self.growth.doubled()?,
+            level: self.level - 1,
+        })
+    }
+
+    /// The blocks that steps take.
+    pub(super) fn blocks(&self) -> Blocks {
+        let n = self.system.size;
+        let (rows, scale) = (Rows::of(self.system), &self.scale);
         // back to (q, q̇)
         let unit = |i: usize| if i < n { scale[i] } else { 1.0 };
-        let of_state = |top: usize, rows: usize, unscaled: bool| {
-            Matrix::from_fn(rows, 2 * n, |i, j| {
-                let own = if unscaled { unit(i) } else { 1.0 };
-                whole[(top + i, y + j)] * unit(j) / own
+        let part = |[top, left]: [usize; 2],
+                    rows: usize,
+                    columns: usize,
+                    factor: &dyn Fn(usize, usize) -> f64| {
+            Matrix::from_fn(rows, columns, |i, j| {
+                self.growth.exponential(top + i, left + j) * factor(i, j)
             })
         };
-        let of_forces = |top: usize, rows: usize, power: usize, unscaled: bool| {
-            Matrix::from_fn(rows, forces, |i, p| {
-                let own = if unscaled { unit(i) } else { 1.0 };
-                whole[(top + i, w(power) + p)] / own
-            })
+        // w_k and z_k in parts of the own length are those in parts of the longest times (own/longest)^±k
+        let powers = |of_row: usize, of_column: usize| {
+            2.0_f64.powi(self.level * (of_row + of_column) as i32)
         };
-        Some(Self {
-            state: of_state(y, 2 * n, true),
-            by: std::array::from_fn(|power| of_forces(y, 2 * n, power, true)),
-            once: of_state(once, forces, false).times(h),
-            once_by: std::array::from_fn(|power| of_forces(once, forces, power, false).times(h)),
-            twice: of_state(twice, forces, false).times(h * h),
-            twice_by: std::array::from_fn(|power| {
-                of_forces(twice, forces, power, false).times(h * h)
+        let (y, forces) = (rows.y(), rows.forces);
+        Blocks {
+            state: part([y, y], 2 * n, 2 * n, &|i, j| unit(j) / unit(i)),
+            by: std::array::from_fn(|power| {
+                let own = powers(0, power);
+                part([y, rows.w(power)], 2 * n, forces, &|i, _| own / unit(i))
             }),
-        })
+            moments: std::array::from_fn(|moment| {
+                let own = powers(moment + 1, 0);
+                part([rows.z(moment), y], forces, 2 * n, &|_, j| own * unit(j))
+            }),
+            moments_by: std::array::from_fn(|moment| {
+                std::array::from_fn(|power| {
+                    let own = powers(moment + 1, power);
+                    part([rows.z(moment), rows.w(power)], forces, forces, &|_, _| own)
+                })
+            }),
+        }
+    }
+}
+
+/// Where the quantities stand in the exponential.
+#[derive(Clone, Copy, Debug)]
+struct Rows {
+    size: usize,
+    forces: usize,
+}
+
+impl Rows {
+    fn of(system: &System) -> Self {
+        Self {
+            size: system.size,
+            forces: system.loads + system.laws.len(),
+        }
+    }
+
+    /// First row of an integral.
+    fn z(self, moment: usize) -> usize {
+        (MOMENTS - 1 - moment) * self.forces
+    }
+
+    /// First row of the state.
+    fn y(self) -> usize {
+        MOMENTS * self.forces
+    }
+
+    /// First row of a power of time.
+    fn w(self, power: usize) -> usize {
+        self.y() + 2 * self.size + power * self.forces
+    }
+
+    fn count(self) -> usize {
+        self.w(POWERS)
     }
 }
 

@@ -5,9 +5,9 @@
 //! the parabola of time through f₁, (f₂ + f₃)/2 and f₄.
 
 use super::{
-    ladder::{Ladder, Rung},
+    ladder::{HALVINGS_AT_EVENTS, Ladder, Rung},
     matrix::dot,
-    propagator::{Blocks, POWERS},
+    propagator::{Blocks, MOMENTS, POWERS},
     system::{Assembly, System},
 };
 use crate::law::{Corner, DOF_AT_REST, DofMemory};
@@ -17,6 +17,9 @@ use crate::law::{Corner, DOF_AT_REST, DofMemory};
 const ANGLE_AT_A_MILLIONTH: f64 = 0.13;
 /// … which is of fourth order.
 const MILLIONTH: f64 = 1e-6;
+
+/// Error of the joints' nonlinear part over a period of their own, as a part of the motion, in FMUs and histories.
+pub const TOLERANCE: f64 = 1e-7;
 
 /// Motion of an assembly, what its joints remember, and the energies that have passed.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,16 +47,16 @@ pub struct AssemblySteps {
 #[derive(Clone, Debug)]
 struct Scratch {
     state: AssemblyState,
-    loads: Vec<f64>,
-    change: Vec<f64>,
+    /// Loads as powers of time.
+    loads: [Vec<f64>; POWERS],
     /// Relative motions (r, ṙ) at the beginning, at the stages, and at the end.
     relative: [Vec<f64>; 5],
     /// Forces of the four stages.
     forces: [Vec<f64>; 4],
     /// Loads and forces as powers of time.
     powers: [Vec<f64>; POWERS],
-    /// ∫ Rq dt and its integral.
-    moments: [Vec<f64>; 2],
+    /// ∫ Rq dθ and the integrals over it.
+    moments: [Vec<f64>; MOMENTS],
     /// ∂f/∂r of each law.
     tangents: Vec<f64>,
 }
@@ -67,18 +70,26 @@ impl AssemblySteps {
         let ladder = Ladder::new(&system, length_s)?;
         let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
         Some(Self {
-            // h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
-            largest_angle: ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).sqrt().sqrt(),
+            largest_angle: largest_angle(tolerance),
             system,
             ladder,
             scratch,
         })
     }
 
+    /// The same steps with another tolerance.
+    #[must_use]
+    pub fn with_tolerance(&self, tolerance: f64) -> Self {
+        Self {
+            largest_angle: largest_angle(tolerance),
+            ..self.clone()
+        }
+    }
+
     /// An assembly that has not moved yet.
     #[must_use]
     pub fn at_rest(&self) -> AssemblyState {
-        AssemblyState::at_rest(&self.system)
+        AssemblyState::of_size(self.system.size, self.system.laws.len())
     }
 
     /// Length of the steps, s.
@@ -88,17 +99,33 @@ impl AssemblySteps {
     }
 
     /// Moves the state on by one step, in which the loads go from `loads` evenly to `loads` + `change` (m numbers each). Where the
-    /// joints ask for it the step is taken in halves, each in halves again, up to 256 parts. Says how many parts it took.
+    /// joints ask for it the step is taken in halves, each in halves again, up to 4096 parts. Says how many parts it took.
     pub fn step(&mut self, state: &mut AssemblyState, loads: &[f64], change: &[f64]) -> usize {
-        if let Some(scratch) = self.scratch.first_mut() {
-            scratch.loads.copy_from_slice(loads);
-            scratch.change.copy_from_slice(change);
-        }
-        self.part(state, 0)
+        self.step_along(state, |power, load| match power {
+            0 => loads[load],
+            1 => change[load],
+            _ => 0.0,
+        })
     }
 
-    /// One step of the given level, with the loads in its scratch.
-    fn part(&mut self, state: &mut AssemblyState, level: usize) -> usize {
+    /// The same with loads that are Σ wₖ θᵏ/k! over the step, θ from 0 to 1: `of` gives wₖ for the power (0 to 3) and the load.
+    pub fn step_along(
+        &mut self,
+        state: &mut AssemblyState,
+        of: impl Fn(usize, usize) -> f64,
+    ) -> usize {
+        if let Some(scratch) = self.scratch.first_mut() {
+            for (power, loads) in scratch.loads.iter_mut().enumerate() {
+                for (load, own) in loads.iter_mut().enumerate() {
+                    *own = of(power, load);
+                }
+            }
+        }
+        self.part(state, 0, HALVINGS_AT_EVENTS)
+    }
+
+    /// One step of the given level, with the loads in its scratch, that may still be halved so often at events.
+    fn part(&mut self, state: &mut AssemblyState, level: usize, at_events: usize) -> usize {
         let (Some(rung), Some((own, finer))) = (
             self.ladder.rungs.get(level),
             self.scratch
@@ -109,23 +136,24 @@ impl AssemblySteps {
         };
         own.take(&self.system, rung, state);
         let is_finest = finer.is_empty();
-        if is_finest || !own.asks_for_halves(&self.system, rung, state, self.largest_angle) {
+        let at_events = match is_finest {
+            true => None,
+            false if own.is_steep(&self.system, rung, state, self.largest_angle) => Some(at_events),
+            false if own.has_event(&self.system, state) => at_events.checked_sub(1),
+            false => None,
+        };
+        let Some(at_events) = at_events else {
             std::mem::swap(state, &mut own.state);
             return 1;
-        }
+        };
         if let Some(next) = finer.first_mut() {
-            next.loads.copy_from_slice(&own.loads);
-            for (half, whole) in next.change.iter_mut().zip(&own.change) {
-                *half = 0.5 * whole;
-            }
+            halve(&own.loads, &mut next.loads);
         }
-        let first = self.part(state, level + 1);
+        let first = self.part(state, level + 1, at_events);
         if let Some(next) = self.scratch.get_mut(level + 1) {
-            for (load, half) in next.loads.iter_mut().zip(&next.change) {
-                *load += half;
-            }
+            go_on(&mut next.loads);
         }
-        first + self.part(state, level + 1)
+        first + self.part(state, level + 1, at_events)
     }
 
     /// Energy stored in structures and joints, J.
@@ -135,11 +163,42 @@ impl AssemblySteps {
     }
 }
 
+/// h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
+fn largest_angle(tolerance: f64) -> f64 {
+    ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).sqrt().sqrt()
+}
+
+/// Powers of time of the first half.
+fn halve(whole: &[Vec<f64>; POWERS], half: &mut [Vec<f64>; POWERS]) {
+    let mut share = 1.0;
+    for (half, whole) in half.iter_mut().zip(whole) {
+        for (half, whole) in half.iter_mut().zip(whole) {
+            *half = share * whole;
+        }
+        share *= 0.5;
+    }
+}
+
+/// Powers of time of the part that follows: w(θ + 1) = w₀ + w₁ + w₂/2 + w₃/6 + …
+fn go_on([constant, linear, quadratic, cubic]: &mut [Vec<f64>; POWERS]) {
+    for (i, &w3) in cubic.iter().enumerate() {
+        constant[i] += linear[i] + 0.5 * quadratic[i] + w3 / 6.0;
+        linear[i] += quadratic[i] + 0.5 * w3;
+        quadratic[i] += w3;
+    }
+}
+
 impl AssemblyState {
-    fn at_rest(system: &System) -> Self {
+    /// That of an assembly that has not moved yet.
+    #[must_use]
+    pub fn at_rest(assembly: &Assembly) -> Self {
+        Self::of_size(assembly.size(), assembly.laws().count())
+    }
+
+    fn of_size(size: usize, laws: usize) -> Self {
         Self {
-            motion: vec![0.0; 2 * system.size],
-            memory: vec![DOF_AT_REST; system.laws.len()],
+            motion: vec![0.0; 2 * size],
+            memory: vec![DOF_AT_REST; laws],
             supplied_j: 0.0,
             dissipated_j: 0.0,
         }
@@ -171,9 +230,8 @@ impl Scratch {
     fn of(system: &System) -> Self {
         let (m, d) = (system.loads, system.laws.len());
         Self {
-            state: AssemblyState::at_rest(system),
-            loads: vec![0.0; m],
-            change: vec![0.0; m],
+            state: AssemblyState::of_size(system.size, system.laws.len()),
+            loads: std::array::from_fn(|_| vec![0.0; m]),
             relative: std::array::from_fn(|_| vec![0.0; 2 * d]),
             forces: std::array::from_fn(|_| vec![0.0; d]),
             powers: std::array::from_fn(|_| vec![0.0; m + d]),
@@ -186,14 +244,15 @@ impl Scratch {
     fn take(&mut self, system: &System, rung: &Rung, before: &AssemblyState) {
         let (m, d) = (system.loads, system.laws.len());
         let whole = &rung.whole;
-        self.powers.iter_mut().for_each(|power| power.fill(0.0));
-        self.powers[0][..m].copy_from_slice(&self.loads);
-        self.powers[1][..m].copy_from_slice(&self.change);
+        for (power, loads) in self.powers.iter_mut().zip(&self.loads) {
+            power.fill(0.0);
+            power[..m].copy_from_slice(loads);
+        }
         // y¹ = E y + loads
         let end = &mut self.state.motion;
         end.fill(0.0);
         whole.state.add_product_to(&before.motion, end);
-        for (block, power) in whole.by.iter().zip(&self.powers).take(2) {
+        for (block, power) in whole.by.iter().zip(&self.powers) {
             block.add_product_to(power, end);
         }
         if let Some(middle) = &rung.middle {
@@ -204,10 +263,13 @@ impl Scratch {
             // y^½ = E_½ y + loads
             r2.fill(0.0);
             middle.by_state.add_product_to(&before.motion, r2);
-            middle.by_loads[0].add_product_to(&self.loads, r2);
-            // at half the step half of the change has come
-            for (i, r2) in r2.iter_mut().enumerate() {
-                *r2 += 0.5 * dot(middle.by_loads[1].row(i), &self.change);
+            let mut share = 1.0;
+            for (block, loads) in middle.by_loads.iter().zip(&self.loads) {
+                // in half the time a power of it comes half as far, a quarter …
+                for (i, r2) in r2.iter_mut().enumerate() {
+                    *r2 += share * dot(block.row(i), loads);
+                }
+                share *= 0.5;
             }
             r3.copy_from_slice(r2);
             system.relative(end, r4);
@@ -242,17 +304,21 @@ impl Scratch {
         let h = rung.length_s;
         let (m, d) = (system.loads, system.laws.len());
         self.moments_over(&rung.whole, &before.motion);
-        let [first, second] = &self.moments;
+        let [first, second, third] = &self.moments;
         let place = |state: &[f64], p: usize| match p.checked_sub(m) {
             None => dot(system.load_rows.row(p), &state[..system.size]),
             Some(law) => dot(system.rows.row(law), &state[..system.size]),
         };
-        // ∫ wᵀ ẋ dt = [wᵀ x] − ∫ ẇᵀ x dt, with w = w₀ + w₁ θ + w₂ θ²/2, θ = t/h, and ∫ θ x dt = ∫ x dt − ∬ x dt²/h
+        // ∫ wᵀ dx = [wᵀ x] − ∫ (dw/dθ)ᵀ x dθ, with ∫ θ x dθ = z₁ − z₂ and ∫ θ² x dθ = z₁ − 2z₂ + 2z₃
         let work = |p: usize| {
-            let [w0, w1, w2] = [0, 1, 2].map(|power: usize| self.powers[power][p]);
+            let [w0, w1, w2, w3] = self.powers.each_ref().map(|power| power[p]);
             let (from, to) = (place(&before.motion, p), place(&self.state.motion, p));
-            let moment = first[p] - second[p] / h;
-            (w0 + w1 + 0.5 * w2) * to - w0 * from - (w1 * first[p] + w2 * moment) / h
+            let end = w0 + w1 + 0.5 * w2 + w3 / 6.0;
+            let [linear, quadratic] = [
+                first[p] - second[p],
+                first[p] - 2.0 * second[p] + 2.0 * third[p],
+            ];
+            end * to - w0 * from - (w1 * first[p] + w2 * linear + 0.5 * w3 * quadratic)
         };
         let supplied: f64 = (0..m).map(work).sum();
         let into_laws: f64 = (m..m + d).map(work).sum();
@@ -280,11 +346,8 @@ impl Scratch {
     }
 
     fn moments_over(&mut self, whole: &Blocks, motion: &[f64]) {
-        let [first, second] = &mut self.moments;
-        for (moment, state, by) in [
-            (first, &whole.once, &whole.once_by),
-            (second, &whole.twice, &whole.twice_by),
-        ] {
+        let blocks = whole.moments.iter().zip(&whole.moments_by);
+        for (moment, (state, by)) in self.moments.iter_mut().zip(blocks) {
             moment.fill(0.0);
             state.add_product_to(motion, moment);
             for (block, power) in by.iter().zip(&self.powers) {
@@ -293,9 +356,8 @@ impl Scratch {
         }
     }
 
-    /// Whether the step that was taken is too long for its joints: their stiffness is high for it, or within it one that remembers
-    /// turns or passes a corner of its load.
-    fn asks_for_halves(
+    /// Whether the step that was taken is too long for the stiffness of its joints.
+    fn is_steep(
         &mut self,
         system: &System,
         rung: &Rung,
@@ -305,17 +367,20 @@ impl Scratch {
         let d = system.laws.len();
         let [begin, .., end] = &self.relative;
         let tangents = &mut self.tangents;
-        let is_steep = [begin, end].into_iter().any(|at| {
+        [begin, end].into_iter().any(|at| {
             for (i, tangent) in tangents.iter_mut().enumerate() {
                 *tangent = System::tangent(&system.laws[i], &before.memory[i], at[i], at[d + i]);
             }
             rung.length_s * system.tangent_frequency(tangents) > largest_angle
-        });
-        is_steep || (0..d).any(|i| self.has_event(system, before, i))
+        })
     }
 
-    /// Whether a law that remembers turns or passes a corner.
-    fn has_event(&self, system: &System, before: &AssemblyState, i: usize) -> bool {
+    /// Whether within the step that was taken a law that remembers turns or passes a corner of its load.
+    fn has_event(&self, system: &System, before: &AssemblyState) -> bool {
+        (0..system.laws.len()).any(|i| self.has_event_on(system, before, i))
+    }
+
+    fn has_event_on(&self, system: &System, before: &AssemblyState, i: usize) -> bool {
         let laws = &system.laws[i];
         if !laws.have_memory() {
             return false;

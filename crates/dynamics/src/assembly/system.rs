@@ -33,6 +33,14 @@ pub struct AssemblyJoint {
     pub laws: Vec<DofLaws>,
 }
 
+impl Assembly {
+    /// The laws beside the linear ones, on each DOF that has any, joint by joint.
+    pub fn laws(&self) -> impl Iterator<Item = &DofLaws> {
+        let all = self.joints.iter().flat_map(|joint| &joint.laws);
+        all.filter(|laws| !laws.are_none())
+    }
+}
+
 /// The linear part as a system of first order, and what acts on it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct System {

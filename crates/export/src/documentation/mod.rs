@@ -1,5 +1,6 @@
 //! The FMU's documentation: one page that needs no network, and the licences.
 
+mod assembly;
 mod curves;
 mod licences;
 mod model;
@@ -17,6 +18,7 @@ use super::{FmiVersion, Interface, Timestamp};
 use bolted_joint_figures::html::{self, escaped};
 use bolted_joint_joint::{JointFile, OverPreload, Passivity};
 
+pub(super) use assembly::{AssemblyPage, html as assembly_html};
 pub(super) use licences::licences;
 
 /// What the page tells.
@@ -40,18 +42,33 @@ pub(super) struct Page<'a> {
 
 /// The page `documentation/index.html`.
 pub(super) fn html(page: &Page<'_>) -> String {
-    let name = escaped(&page.file.name);
     let sections = [
         model::section(page),
         parameters::section(page),
         over_preload::section(page),
         curves::section(page),
         running::section(page),
-        variables::section(page),
+        variables::section(page.declared),
         origin::section(page),
         licences::section(),
     ]
     .concat();
+    whole(
+        &page.file.name,
+        page.interface.summary(),
+        &sections,
+        (page.version, page.token, page.date),
+    )
+}
+
+/// The page with these sections.
+fn whole(
+    name: &str,
+    summary: &str,
+    sections: &str,
+    (version, token, date): (FmiVersion, &str, Timestamp),
+) -> String {
+    let name = escaped(name);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -60,14 +77,11 @@ pub(super) fn html(page: &Page<'_>) -> String {
          <main>\n{sections}</main>\n<footer><p>{token_name} <code>{token}</code></p></footer>\n\
          </body>\n</html>\n",
         css = html::STYLE,
-        summary = html::capitalised(page.interface.summary()),
-        version = page.version,
+        summary = html::capitalised(summary),
         tool = escaped(&generation_tool()),
-        date = page.date,
-        token_name = match page.version {
+        token_name = match version {
             FmiVersion::V2 => "GUID",
             FmiVersion::V3 => "Instantiation token",
         },
-        token = page.token,
     )
 }

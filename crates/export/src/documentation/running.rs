@@ -28,7 +28,7 @@ pub(super) fn section(page: &Page<'_>) -> String {
     )
 }
 
-fn reference_run(tolerance: f64) -> String {
+pub(super) fn reference_run(tolerance: f64) -> String {
     format!(
         "<h3>Reference run</h3>\n<p>The FMU carries inputs and the outputs that they lead to, with which an importer can \
          check itself: it should meet them to {} of their largest magnitudes. \

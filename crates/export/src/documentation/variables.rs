@@ -1,13 +1,11 @@
 //! The table of the FMU's variables.
 
-use bolted_joint_interface::Role;
+use bolted_joint_interface::{Interface as Declared, Role};
 
-use super::Page;
 use bolted_joint_figures::html::{cell, escaped, number, number_cell, table};
 
-pub(super) fn section(page: &Page<'_>) -> String {
-    let rows: Vec<String> = page
-        .declared
+pub(super) fn section(declared: &Declared) -> String {
+    let rows: Vec<String> = declared
         .variables
         .iter()
         .map(|variable| {
@@ -46,5 +44,14 @@ pub(super) fn section(page: &Page<'_>) -> String {
         ],
         &rows,
     );
-    format!("<h2>Variables</h2>\n<p>Every parameter is tunable.</p>\n{table}")
+    let has_parameters = declared
+        .variables
+        .iter()
+        .any(|own| own.role == Role::Parameter);
+    let tunable = if has_parameters {
+        "<p>Every parameter is tunable.</p>\n"
+    } else {
+        ""
+    };
+    format!("<h2>Variables</h2>\n{tunable}{table}")
 }

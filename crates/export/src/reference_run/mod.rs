@@ -6,7 +6,7 @@
 mod element;
 mod files;
 mod lap;
-mod stimulus;
+pub(super) mod stimulus;
 
 use bolted_joint_dynamics::{
     Beyond, Dof, JointLaw, JointMemory, JointOverPreload, Motion,
@@ -32,13 +32,16 @@ pub(super) struct ReferenceRun {
     tolerance: f64,
 }
 
+/// Times, s, each with values.
+pub(super) type Rows = Vec<(f64, Vec<f64>)>;
+
 /// Values over time.
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
     /// Names of the variables.
     names: Vec<String>,
     /// Time, s, and the variables' values in SI.
-    rows: Vec<(f64, Vec<f64>)>,
+    rows: Rows,
 }
 
 impl ReferenceRun {
@@ -64,6 +67,24 @@ impl ReferenceRun {
                 }
             }
         })
+    }
+
+    /// A run of this many steps with inputs that are held, and outputs at communication points, both as rows with the time.
+    pub(super) fn of_rows(
+        step_s: f64,
+        steps: usize,
+        inputs: (Vec<String>, Rows),
+        outputs: (Vec<String>, Rows),
+        tolerance: f64,
+    ) -> Self {
+        let table = |(names, rows)| Table { names, rows };
+        Self {
+            step_s,
+            steps,
+            inputs: table(inputs),
+            outputs: table(outputs),
+            tolerance,
+        }
     }
 
     /// The files that carry it.

@@ -40,7 +40,7 @@ const TIMES_OF_MEMORY: f64 = 3.0;
 const DIGITS: usize = 6;
 
 /// Values of both sides, a then b, y before theta, from −1 to 1, and their derivatives by the level's number.
-pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
+pub(in super::super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
     let tones = TONES[2 * usize::from(on_b) + dof % 2];
     let above = FURTHER_TONES * (dof / 2) as f64;
     let mut value = (0.0, 0.0);
@@ -54,7 +54,10 @@ pub(super) fn shape(dof: usize, on_b: bool, level: f64) -> (f64, f64) {
 }
 
 /// Largest relative motion of each DOF in the run, m and rad.
-pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>, dofs: DofSet) -> [f64; D] {
+pub(in super::super) fn relative_motion<const D: usize>(
+    law: &JointLaw<D>,
+    dofs: DofSet,
+) -> [f64; D] {
     let part = if law.has_memory() {
         TIMES_OF_MEMORY
     } else {
@@ -73,6 +76,6 @@ pub(super) fn relative_motion<const D: usize>(law: &JointLaw<D>, dofs: DofSet) -
 }
 
 /// `value` with so few digits that the files stay short; what is rounded is what is integrated.
-pub(super) fn rounded(value: f64) -> f64 {
+pub(in super::super) fn rounded(value: f64) -> f64 {
     format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
 }

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::{Instance, variables::CALCULATED_PARAMETERS};
 use crate::{
-    interface::{Role, Roles, Values, memory},
+    interface::{Name, Role, Roles, Values, memory},
     refusal::Refusal,
     values::Inner,
 };
@@ -66,7 +66,8 @@ impl Instance {
     fn present(&self) -> Values {
         let mut values = self.values.clone();
         values[memory::PRELOAD_RATE] = self.preload_rate();
-        if self.begins() && values.are_integrated() {
+        let remembers_from_start = values.are_integrated() || !values.listed().is_empty();
+        if self.begins() && remembers_from_start {
             values.set_inner(Inner::Starting);
         }
         values
@@ -112,7 +113,7 @@ impl Instance {
         &self,
         references: &[u32],
         allowed: Roles,
-        refusal: impl Fn(&'static str, Role) -> Refusal,
+        refusal: impl Fn(Name, Role) -> Refusal,
     ) -> Result<(), Refusal> {
         for &reference in references {
             let (index, roles) = self.known(reference)?;

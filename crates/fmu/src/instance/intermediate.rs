@@ -7,7 +7,7 @@
 use super::Instance;
 use crate::{
     input_course::InputCourse,
-    interface::{InterfaceType, REFERENCE_COUNT, Role, Values, reference::TIME},
+    interface::{InterfaceType, Values, reference::TIME},
     mode::Mode,
     models::Step,
     refusal::{Active, NotIntermediate, Reached, Refusal, Warning},
@@ -94,7 +94,7 @@ impl Instance {
             let (index, _) = self.known(reference)?;
             self.check_offered(index)?;
             let required = &mut self.access.required;
-            required.resize(REFERENCE_COUNT, false);
+            required.resize(self.roles.len(), false);
             if let Some(required) = required.get_mut(index) {
                 *required = true;
             }
@@ -133,7 +133,7 @@ impl Instance {
             present: self.values.clone(),
             middle: self.values.clone(),
             values_before: self.values.clone(),
-            inputs_before: self.inputs,
+            inputs_before: self.inputs.clone(),
         })
     }
 
@@ -190,7 +190,7 @@ impl Instance {
         self.pace = self.pace.followed_by(interval_s);
         self.parameters_changed = false;
         if !self.asks_for_inputs() {
-            self.inputs = self.inputs.ended();
+            self.inputs.end();
         }
         (early, Warning::of(step.active, step.reached))
     }
@@ -198,7 +198,7 @@ impl Instance {
     /// Back to the beginning of the step.
     fn abandon(&mut self, step: &IntermediateStep) {
         self.values.clone_from(&step.values_before);
-        self.inputs = step.inputs_before;
+        self.inputs.clone_from(&step.inputs_before);
         self.outputs_stale = true;
     }
 
@@ -233,7 +233,7 @@ impl Instance {
                 }
                 self.take_internal_step(step)?;
                 if asks {
-                    self.inputs = self.inputs.ended();
+                    self.inputs.end();
                 }
                 step.turn = self.first_turn();
                 Ok(Some(Update {
@@ -265,9 +265,9 @@ impl Instance {
     fn fit_inputs(&mut self, step: &IntermediateStep) {
         let end = self.values.clone();
         self.set_inputs(&step.present);
-        let mut inputs = InputCourse::HELD;
+        let mut inputs = InputCourse::held(self.identity.variables.listed_inputs());
         for (index, variable) in self.identity.variables.iter() {
-            if variable.role == Role::Input && self.access.requires(index) {
+            if variable.role.is_input() && self.access.requires(index) {
                 let course = [step.present[index], step.middle[index], end[index]];
                 inputs.fit(index, course, step.asked_s);
             }
@@ -287,7 +287,7 @@ impl Instance {
     fn asks_for_inputs(&self) -> bool {
         let inputs = self.identity.variables.iter();
         inputs
-            .filter(|(_, variable)| variable.role == Role::Input)
+            .filter(|(_, variable)| variable.role.is_input())
             .any(|(index, _)| self.access.requires(index))
     }
 

@@ -42,7 +42,7 @@ impl Instance {
     pub(crate) fn set_continuous_states(&mut self, states: &[f64]) -> Result<(), Refusal> {
         self.require(&[Mode::ContinuousTime])?;
         self.check_count(states.len())?;
-        let variables = self.identity.variables;
+        let variables = &self.identity.variables;
         for (state, &value) in variables.continuous_states().zip(states) {
             if !value.is_finite() {
                 let name = self.name(state.reference);

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     fmu_state::{Snapshot, StateError},
-    interface::{REFERENCE_COUNT, is_committed},
+    interface::{is_beside, is_committed},
     refusal::Refusal,
 };
 
@@ -22,7 +22,7 @@ impl Instance {
         let mut values = self.values.clone();
         for index in self.values.indices() {
             let is_kept = match self.roles.get(index) {
-                _ if index >= REFERENCE_COUNT => !begins,
+                _ if is_beside(index) => !begins,
                 Some(roles) if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) => {
                     is_committed(index) && !begins
                 }
@@ -41,7 +41,7 @@ impl Instance {
             stop_s: self.stop_s,
             pace: self.pace,
             values,
-            inputs: self.inputs,
+            inputs: self.inputs.clone(),
         }
     }
 
@@ -52,7 +52,7 @@ impl Instance {
         self.stop_s = snapshot.stop_s;
         self.pace = snapshot.pace;
         self.values.clone_from(&snapshot.values);
-        self.inputs = snapshot.inputs;
+        self.inputs.clone_from(&snapshot.inputs);
         self.parameters_changed = true;
         self.outputs_stale = true;
         Ok(())

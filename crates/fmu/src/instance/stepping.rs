@@ -2,7 +2,7 @@
 
 use super::Instance;
 use crate::{
-    interface::{InterfaceType, Role, Values, reference::TIME},
+    interface::{InterfaceType, Values, reference::TIME},
     mode::Mode,
     models::Step,
     refusal::{Reached, Refusal, Warning},
@@ -28,7 +28,7 @@ impl Instance {
             is_steady: pace.is_steady(),
         })?;
         if !self.inputs.is_none() {
-            self.inputs = self.inputs.ended();
+            self.inputs.end();
         }
         self.pace = pace;
         // only now, so that a warning reaches the importer even if this step is refused and the next one is not
@@ -83,7 +83,7 @@ impl Instance {
         let end = self.inputs_after(step)?;
         let reached = self.model.advance(&mut self.values, step, &self.inputs)?;
         self.set_inputs(&end);
-        self.inputs = self.inputs.moved(step.interval_s);
+        self.inputs.go_on(step.interval_s);
         Ok(reached)
     }
 
@@ -91,11 +91,11 @@ impl Instance {
     fn inputs_after(&self, step: Step) -> Result<Values, Refusal> {
         let mut values = self.values.clone();
         for (index, variable) in self.identity.variables.iter() {
-            if variable.role == Role::Input {
+            if variable.role.is_input() {
                 let value = self.inputs.value(index, values[index], step.interval_s);
                 if !value.is_finite() {
                     return Err(Refusal::InputNotFinite {
-                        name: variable.name,
+                        name: variable.name.clone(),
                         time_s: step.time_s + step.interval_s,
                     });
                 }
@@ -108,7 +108,7 @@ impl Instance {
     /// Takes the inputs over from `values`.
     pub(super) fn set_inputs(&mut self, values: &Values) {
         for (index, variable) in self.identity.variables.iter() {
-            if variable.role == Role::Input {
+            if variable.role.is_input() {
                 self.values[index] = values[index];
             }
         }

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use super::Instance;
 use crate::{
     input_course::ORDER_MAX,
-    interface::{InterfaceType, Role, Roles, Values, memory, reference::PRELOAD},
+    interface::{InterfaceType, Name, Role, Roles, Values, memory, reference::PRELOAD},
     mode::Mode,
     refusal::Refusal,
 };
@@ -29,7 +29,7 @@ impl Instance {
             Mode::Initialization,
             Mode::Step,
         ])?;
-        let mut inputs = self.inputs;
+        let mut inputs = self.inputs.clone();
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let (index, roles) = self.known(reference)?;
             let name = self.name(index);
@@ -39,6 +39,7 @@ impl Instance {
             }
             let order = checked_order(name, order, ORDER_MAX)?;
             if !value.is_finite() {
+                let name = self.name(index);
                 return Err(Refusal::ValueNotFinite { name, value });
             }
             inputs.give(index, order, value);
@@ -108,7 +109,7 @@ impl Instance {
 }
 
 /// The order as an index, if it is offered.
-fn checked_order(name: &'static str, found: i32, highest: usize) -> Result<usize, Refusal> {
+fn checked_order(name: Name, found: i32, highest: usize) -> Result<usize, Refusal> {
     usize::try_from(found)
         .ok()
         .filter(|order| (1..=highest).contains(order))

@@ -4,10 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::Instance;
 use crate::{
-    interface::{
-        InterfaceType, Role, Roles, memory,
-        reference::{ENERGY_STORED, POWER_DISSIPATED, PRELOAD},
-    },
+    interface::{InterfaceType, Name, Role, Roles, memory, reference::PRELOAD},
     mode::Mode,
     refusal::Refusal,
     version::Abi,
@@ -55,7 +52,7 @@ impl Instance {
         for (&reference, value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
             if roles.intersects(CALCULATED) {
-                self.calculate(index);
+                self.calculate(roles);
                 if !self.values[index].is_finite() {
                     return Err(self.overflow(index));
                 }
@@ -114,7 +111,7 @@ impl Instance {
                     value,
                 });
             }
-            if index == PRELOAD {
+            if roles.intersects(Roles::LIMITED) {
                 self.model.check_input(index, value)?;
             }
         }
@@ -143,10 +140,10 @@ impl Instance {
             return false;
         }
         for (&reference, value) in references.iter().zip(values) {
-            let index = reference as usize;
-            let is_input = self.roles.get(index).is_some_and(|roles| roles.is(INPUTS));
-            // not every preload is taken
-            if !(is_input && index != PRELOAD && value.is_finite()) {
+            let roles = self.roles.get(reference as usize);
+            // an input that is limited has more than this role
+            let is_free_input = roles.is_some_and(|roles| roles.is(INPUTS));
+            if !(is_free_input && value.is_finite()) {
                 return false;
             }
         }
@@ -204,10 +201,10 @@ impl Instance {
         }
     }
 
-    /// Brings up to date the output with this index, and what comes with it.
+    /// Brings up to date an output of these roles, and what comes with it.
     #[inline]
-    fn calculate(&mut self, index: usize) {
-        if !self.has_energies_apart || matches!(index, ENERGY_STORED | POWER_DISSIPATED) {
+    fn calculate(&mut self, roles: Roles) {
+        if !self.has_some_apart || roles.intersects(Roles::APART) {
             self.calculate_outputs();
         } else if self.outputs_stale {
             self.calculate_loads();
@@ -247,7 +244,7 @@ impl Instance {
         let variable = self.identity.variables.get(index);
         Refusal::OutputNotFinite {
             name: self.name(index),
-            unit: variable.map_or("", |variable| variable.unit),
+            unit: variable.map_or(Name::Borrowed(""), |variable| variable.unit.clone()),
             time_s: self.time_s(),
         }
     }
@@ -268,7 +265,7 @@ impl Instance {
     }
 
     /// Name of the variable with this index.
-    pub(super) fn name(&self, index: usize) -> &'static str {
+    pub(super) fn name(&self, index: usize) -> Name {
         self.identity.variables.name(index)
     }
 }

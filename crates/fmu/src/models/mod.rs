@@ -1,5 +1,6 @@
 //! What the FMUs simulate, behind one interface: each model reads and writes the variables by value reference.
 
+mod assembly;
 mod element;
 mod events;
 mod lap;
@@ -8,6 +9,8 @@ mod remembering;
 mod sides;
 mod watch;
 
+pub(crate) use assembly::AssemblyLayout;
+use assembly::AssemblyModel;
 use element::Element;
 use lap::{LapModel, prepared::Prepared};
 use loosening::{LooseningElement, LooseningLap};
@@ -19,9 +22,10 @@ use bolted_joint_dynamics::SPACE_COUNT;
 
 use crate::{
     input_course::InputCourse,
-    interface::{Dependence, Dofs, InterfaceType, Kind, Values, Variables},
+    interface::{BuiltVariables, Dependence, Dofs, InterfaceType, Kind, Name, Values},
     preload_table::PreloadTable,
     refusal::{Active, Reached, Refusal},
+    start_file::Equations,
 };
 
 /// A model behind the FMI functions.
@@ -106,7 +110,7 @@ pub(crate) trait Model: Send {
 /// Why a step is refused whose heat overflows.
 fn heat_not_finite(time_s: f64) -> Refusal {
     Refusal::StateNotFinite {
-        name: "energy.dissipated",
+        name: Name::Borrowed("energy.dissipated"),
         time_s,
     }
 }
@@ -130,8 +134,17 @@ pub(crate) const MODEL_SIZE_MAX: usize = 2048;
 
 const _: () = assert!(size_of::<LapModel<2, Prepared<2>>>() <= MODEL_SIZE_MAX);
 
-/// The model of an FMU, with the table that it has if its joint is one over the preload.
-pub(crate) fn model(variables: Variables, table: Option<PreloadTable>) -> Box<dyn Model> {
+/// The model of an FMU, with what gives its equations.
+pub(crate) fn model(equations: Equations) -> Box<dyn Model> {
+    match equations {
+        Equations::Parameters(variables) => built_model(variables, None),
+        Equations::OverPreload(variables, table) => built_model(variables, Some(table)),
+        Equations::Assembly(file) => Box::new(AssemblyModel::new(*file)),
+    }
+}
+
+/// The model of an element or a lap, with the table that it has if its joint is one over the preload.
+fn built_model(variables: BuiltVariables, table: Option<PreloadTable>) -> Box<dyn Model> {
     match (variables.kind, table) {
         (Kind::Element, Some(PreloadTable::One(table))) => Box::new(LooseningElement::new(*table)),
         (Kind::Element, Some(PreloadTable::Two(table))) => Box::new(LooseningElement::new(*table)),

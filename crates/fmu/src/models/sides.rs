@@ -155,10 +155,10 @@ pub(super) fn is_active<const D: usize>(law: &JointLaw<D>) -> [bool; 2] {
 
 /// Name of a variable that both FMUs have.
 pub(super) fn name(reference: usize) -> &'static str {
-    declared(reference).map_or("", |variable| variable.name)
+    declared(reference).map_or("", |variable| &*variable.name)
 }
 
 /// Unit of a variable that both FMUs have.
 pub(super) fn unit(reference: usize) -> &'static str {
-    declared(reference).map_or("", |variable| variable.unit)
+    declared(reference).map_or("", |variable| &*variable.unit)
 }

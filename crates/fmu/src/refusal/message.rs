@@ -216,6 +216,11 @@ impl fmt::Display for Refusal {
                 "state {name} is no finite number at t = {time_s} s: the motion diverges; check loads, parameters and \
                  step_size_max"
             ),
+            Self::GrowsWithinStep { interval_s, time_s } => write!(
+                f,
+                "the motion grows beyond all bounds in a step of {interval_s} s from t = {time_s} s: a joint or a structure \
+                 feeds energy, or the step is far too long"
+            ),
             Self::UnknownCategory { found } => write!(
                 f,
                 "log category \"{found}\" does not exist; take it from <LogCategories> in modelDescription.xml"

@@ -10,6 +10,7 @@
 extern crate bolted_joint as _;
 
 mod arguments;
+mod assembly;
 mod c;
 mod calling_order;
 mod derivatives;

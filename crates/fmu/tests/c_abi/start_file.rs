@@ -59,7 +59,7 @@ fn start_files_that_are_not_text_or_too_long_are_refused() {
 /// A piece of the file, what takes its place, and the line that is refused, with the reason.
 const FAULTS: &str = r#"
     bolted-joint-start/1 | bolted-joint-start/2 | 1 | found "bolted-joint-start/2", expected the header
-    model lap | model beam | 2 | found "model beam", expected "model element" or "model lap"
+    model lap | model beam | 2 | found "model beam", expected "model element", "model lap" or "model assembly"
     dofs 2    | dofs 3     | 3 | found "dofs 3", expected "dofs 1", "dofs 2", or "dofs" and some of x y z rx ry rz
     dofs 2    | dofs z x   | 3 | found "dofs z x", expected "dofs 1", "dofs 2", or "dofs" and some of x y z rx ry rz
     dofs 2    | dofs x x   | 3 | found "dofs x x", expected "dofs 1", "dofs 2", or "dofs" and some of x y z rx ry rz

@@ -3,6 +3,7 @@
 //! The functions come from the library's symbols, which each test program links. A [`Raw`] instance frees nothing.
 #![allow(dead_code, unused_imports, reason = "each test program uses a part")]
 
+pub(crate) mod assembly;
 pub(crate) mod request;
 mod start;
 

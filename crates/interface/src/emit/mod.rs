@@ -23,8 +23,8 @@ use line;
 impl Interfaces {
     /// Rust source of the tables: value references as constants, one array of variables for each FMU, and what each calculates.
     ///
-    /// The including module has to offer `Variable`, `ContinuousState` (with the fields written here), `Role`, `Values` and
-    /// `scatter`.
+    /// The including module has to offer `Variable`, `ContinuousState` (with the fields written here), `Role`, `Values`,
+    /// `scatter` and the standard library's `Cow`.
     #[must_use]
     pub fn to_rust(&self) -> String {
         let mut source = String::new();
@@ -126,7 +126,7 @@ fn table(
                 let rows: Vec<u32> = scope.rows.iter().map(|rows| rows.bits()).collect();
                 line!(
                     source,
-                    "    Some(Variable {{ name: {:?}, unit: {:?}, role: Role::{:?}, start: {:?}, rows: &{rows:?}, joints: {}, intermediate: {} }}),",
+                    "    Some(Variable {{ name: Cow::Borrowed({:?}), unit: Cow::Borrowed({:?}), role: Role::{:?}, start: {:?}, rows: &{rows:?}, joints: {}, intermediate: {} }}),",
                     variable.name,
                     variable.unit,
                     variable.role,

@@ -24,8 +24,8 @@ pub(in crate::models) fn check_parameters<const D: usize>(lap: &Lap<D>) -> Resul
             let side = if on_a { A } else { B };
             let reference = side.inertia.get(dof).copied();
             Err(Refusal::Inertia {
-                name: reference.map_or("", name),
-                unit: reference.map_or("", unit),
+                name: reference.map_or("", name).into(),
+                unit: reference.map_or("", unit).into(),
                 found: value,
             })
         }
@@ -101,7 +101,7 @@ fn fault<const D: usize>(state: &LapState<D>, amplitude: &[f64; D], time_s: f64)
         for (&reference, number) in references.iter().flatten().zip(numbers) {
             if !number.is_finite() {
                 return Refusal::StateNotFinite {
-                    name: name(reference),
+                    name: name(reference).into(),
                     time_s,
                 };
             }
@@ -113,7 +113,7 @@ fn fault<const D: usize>(state: &LapState<D>, amplitude: &[f64; D], time_s: f64)
             return Refusal::Escape {
                 a: name(A.displacement[dof]),
                 b: name(B.displacement[dof]),
-                unit: unit(A.displacement[dof]),
+                unit: unit(A.displacement[dof]).into(),
                 relative: relative.displacement[dof],
                 amplitude: amplitude[dof],
                 time_s,
@@ -122,7 +122,7 @@ fn fault<const D: usize>(state: &LapState<D>, amplitude: &[f64; D], time_s: f64)
     }
     // only a sum overflowed, or rounding hid the fault from the single steps
     Refusal::StateNotFinite {
-        name: name(A.displacement[0]),
+        name: name(A.displacement[0]).into(),
         time_s,
     }
 }

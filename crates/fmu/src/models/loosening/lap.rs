@@ -146,6 +146,7 @@ impl<const D: usize> LooseningLap<D> {
         ] {
             if !energy.is_finite() {
                 let time_s = step.time_s + step.interval_s;
+                let name = name.into();
                 return Err(Refusal::StateNotFinite { name, time_s });
             }
         }

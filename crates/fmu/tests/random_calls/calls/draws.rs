@@ -123,7 +123,7 @@ pub(super) fn reset(turn: &mut Turn<'_, '_>) -> Outcome {
 
 pub(super) fn get_values(turn: &mut Turn<'_, '_>) -> Outcome {
     let i = turn.instance();
-    let pool: Vec<u32> = (0..turn.subject.model().references()).collect();
+    let pool = turn.subject.model().references();
     let references = turn.references(&pool);
     let values = turn.a.array(vec![0.0; references.len()]);
     let references = turn.a.array(references);
@@ -147,8 +147,8 @@ pub(super) fn set_values(turn: &mut Turn<'_, '_>) -> Outcome {
     if turn.a.wild && turn.a.choices.one_in(4) {
         // a parameter or a start value
         turn.a.right = false;
-        let count = model.references() as usize;
-        references.push(turn.a.choices.below(count) as u32);
+        let all = model.references();
+        references.push(all[turn.a.choices.below(all.len())]);
     }
     let values: Vec<f64> = references.iter().map(|_| turn.a.number()).collect();
     let references = turn.a.array(references);

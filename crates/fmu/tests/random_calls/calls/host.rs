@@ -9,7 +9,11 @@ use std::{
 
 use bolted_joint_importer::header::{OK, WARNING};
 
-use crate::raw::{Fmi3, Raw, SPACE, start_text};
+use crate::raw::{
+    Fmi3, Raw, SPACE,
+    assembly::{FIRST, Laws},
+    start_text,
+};
 
 /// Token of all FMUs here.
 pub(crate) const TOKEN: &CStr = c"{random calls}";
@@ -23,6 +27,8 @@ pub(crate) struct Model {
     quintic_n_per_m5: f64,
     friction: &'static [Friction],
     is_over_preload: bool,
+    /// Of an assembly, which has none of the above.
+    pub(crate) assembly: Option<Laws>,
 }
 
 /// A law that remembers the motion: its name, and the symbols of its parameters with values.
@@ -84,8 +90,8 @@ const ALL_FRICTION: [Friction; 6] = [
 ];
 
 /// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
-/// friction, and over the preload.
-pub(crate) const MODELS: [Model; 22] = [
+/// friction, and over the preload; and assemblies.
+pub(crate) const MODELS: [Model; 24] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -108,6 +114,8 @@ pub(crate) const MODELS: [Model; 22] = [
     Model::new(false, 6, 0.0).slipping(&[JENKINS]).loosening(),
     Model::new(false, 1, 0.0).slipping(&WITH_INNER_STATE),
     Model::new(true, 2, 0.0).slipping(&WITH_INNER_STATE),
+    Model::assembly(Laws::Cubic),
+    Model::assembly(Laws::Friction),
 ];
 
 impl Model {
@@ -123,6 +131,14 @@ impl Model {
             quintic_n_per_m5,
             friction: &[],
             is_over_preload: false,
+            assembly: None,
+        }
+    }
+
+    const fn assembly(laws: Laws) -> Self {
+        Self {
+            assembly: Some(laws),
+            ..Self::new(true, 1, 0.0)
         }
     }
 
@@ -139,6 +155,9 @@ impl Model {
 
     /// Number of continuous states.
     pub(crate) fn states(self) -> usize {
+        if let Some(laws) = self.assembly {
+            return laws.states();
+        }
         // motion, and what is counted: heat of a joint that remembers, and work besides of one over the preload
         let counted = match (self.is_over_preload, self.friction) {
             (true, _) => 2,
@@ -153,6 +172,9 @@ impl Model {
 
     /// Number of event indicators.
     pub(crate) fn indicators(self) -> usize {
+        if let Some(laws) = self.assembly {
+            return laws.indicators();
+        }
         let mut names = self.friction.iter().map(|(name, _)| name);
         let turns = names.any(|name| !has_inner_state(name));
         if turns { 2 * usize::from(self.dofs) } else { 0 }
@@ -161,6 +183,7 @@ impl Model {
     /// Value references of the inputs.
     pub(crate) fn inputs(self) -> &'static [u32] {
         match (self.lap, self.dofs) {
+            _ if self.assembly.is_some() => &[FIRST],
             (true, 1) => &[9, 11],
             (true, 6) => &[138, 139, 140, 141, 142, 143, 144, 145, 146, 147, 148, 149],
             (false, 6) => &[
@@ -176,6 +199,23 @@ impl Model {
     /// Value references of the outputs that are no states.
     pub(crate) fn outputs(self) -> &'static [u32] {
         match (self.lap, self.dofs) {
+            // the first that are outputs of every such assembly, energies and powers among them
+            _ if self.assembly == Some(Laws::Cubic) => &[
+                FIRST + 7,
+                FIRST + 8,
+                FIRST + 9,
+                FIRST + 10,
+                FIRST + 11,
+                FIRST + 12,
+            ],
+            _ if self.assembly.is_some() => &[
+                FIRST + 8,
+                FIRST + 9,
+                FIRST + 10,
+                FIRST + 11,
+                FIRST + 12,
+                FIRST + 14,
+            ],
             (true, 1) => &[13, 15, 16],
             (true, 6) => &[15, 16, 150, 151, 152, 153, 154, 155],
             (false, 6) => &[
@@ -190,6 +230,9 @@ impl Model {
 
     /// The text of `resources/start.txt`.
     pub(crate) fn start_text(self) -> String {
+        if let Some(laws) = self.assembly {
+            return laws.start_text(&TOKEN.to_string_lossy());
+        }
         let changes = [
             ("joint.k3_y", self.cubic_n_per_m3),
             ("joint.k5_y", self.quintic_n_per_m5),
@@ -253,16 +296,20 @@ impl Model {
         .replace("\n\n", "\n")
     }
 
-    /// One more than the largest value reference that is tried.
-    pub(crate) const fn references(self) -> u32 {
-        if self.friction.is_empty() && !self.is_over_preload {
+    /// Value references that are tried.
+    pub(crate) fn references(self) -> Vec<u32> {
+        if let Some(laws) = self.assembly {
+            return std::iter::once(0).chain(FIRST..laws.end()).collect();
+        }
+        let end = if self.friction.is_empty() && !self.is_over_preload {
             match self.dofs {
                 6 => 702,
                 _ => 45,
             }
         } else {
             702
-        }
+        };
+        (0..end).collect()
     }
 }
 

@@ -29,6 +29,9 @@ const SEEN: [u32; 5] = [0, 1, 3, 5, 7];
 /// The same of y in space.
 const SEEN_IN_SPACE: [u32; 5] = [0, 1, 122, 5, 133];
 
+/// Time and the states of an assembly.
+const SEEN_IN_ASSEMBLY: [u32; 5] = [0, 4097, 4098, 4099, 4100];
+
 /// Of every joint: time, energy, power.
 const SEEN_ALWAYS: [u32; 3] = [0, 15, 16];
 
@@ -200,6 +203,7 @@ pub(crate) fn values(subject: &Subject) -> Vec<f64> {
         return Vec::new();
     }
     let seen = match subject.model().dofs {
+        _ if subject.model().assembly.is_some() => SEEN_IN_ASSEMBLY,
         6 => SEEN_IN_SPACE,
         _ => SEEN,
     };
@@ -209,7 +213,9 @@ pub(crate) fn values(subject: &Subject) -> Vec<f64> {
 
 /// What every joint has, and of y where that is one of its motions.
 fn seen_of_any(instance: Raw) -> Result<Vec<f64>, c_int> {
-    let mut values = instance.try_get(&SEEN_ALWAYS)?;
+    let Ok(mut values) = instance.try_get(&SEEN_ALWAYS) else {
+        return instance.try_get(&SEEN_IN_ASSEMBLY);
+    };
     let of_y = [SEEN, SEEN_IN_SPACE].map(|seen| instance.try_get(&seen));
     values.extend(of_y.into_iter().flatten().flatten());
     Ok(values)

@@ -1,0 +1,232 @@
+//! The equations of an assembly at one point: loads in its joints, accelerations, energies and powers.
+//!
+//! Written once for any kind of number, so that partial derivatives follow from them. Nothing is allocated.
+
+use super::{
+    matrix::Matrix,
+    system::{Assembly, AssemblyJoint},
+};
+use crate::{
+    dof::SPACE_COUNT,
+    law::{DofLaws, DofMemory},
+    number::Number,
+};
+
+/// Coordinates and their rates.
+#[derive(Clone, Copy, Debug)]
+pub struct AssemblyMotion<'a, N> {
+    /// q.
+    pub coordinates: &'a [N],
+    /// q̇.
+    pub rates: &'a [N],
+}
+
+/// A joint at a motion, with what its laws remember on the DOFs that have any.
+struct At<'a, N, M> {
+    joint: &'a AssemblyJoint,
+    /// Relative motion of its DOFs, and the rate.
+    r: [N; SPACE_COUNT],
+    v: [N; SPACE_COUNT],
+    memory: &'a [DofMemory<M>],
+}
+
+impl Assembly {
+    /// Number of coordinates, n.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.frequencies_rad_per_s.len()
+    }
+
+    /// Calls `of` for every DOF that has laws, with the laws, the relative motion and its rate.
+    pub fn each_law<N: Number>(
+        &self,
+        motion: AssemblyMotion<'_, N>,
+        mut of: impl FnMut(&DofLaws, N, N),
+    ) {
+        self.each(motion, &[], |at: At<'_, N, N>| {
+            for (dof, laws) in at.joint.laws.iter().enumerate() {
+                if !laws.are_none() {
+                    of(laws, at.r[dof], at.v[dof]);
+                }
+            }
+        });
+    }
+
+    /// Loads on side b of all joints' DOFs, joint by joint, N or N·m; `memory` is what the laws remember on the DOFs that have any.
+    pub fn joint_loads<N: Number, M: Number + Into<N>>(
+        &self,
+        motion: AssemblyMotion<'_, N>,
+        memory: &[DofMemory<M>],
+        loads: &mut [N],
+    ) {
+        let mut rest = loads;
+        self.each(motion, memory, |at| {
+            let (own, others) = std::mem::take(&mut rest).split_at_mut(at.joint.laws.len());
+            at.loads(own);
+            rest = others;
+        });
+    }
+
+    /// q̈ = B u − Sᵀ f − C q̇ − Ω² q, of the joints' loads f.
+    pub fn accelerations<N: Number>(
+        &self,
+        motion: AssemblyMotion<'_, N>,
+        loads: &[N],
+        joint_loads: &[N],
+        accelerations: &mut [N],
+    ) {
+        for (i, own) in accelerations.iter_mut().enumerate() {
+            let square = self.frequencies_rad_per_s[i].powi(2);
+            *own = sum(self.loads.row(i), loads)
+                - sum(self.damping_per_s.row(i), motion.rates)
+                - N::from(square) * motion.coordinates[i];
+        }
+        let rows = self.joints.iter().flat_map(|joint| rows(&joint.relative));
+        for (row, &load) in rows.zip(joint_loads) {
+            for (own, &entry) in accelerations.iter_mut().zip(row) {
+                *own = *own - N::from(entry) * load;
+            }
+        }
+    }
+
+    /// Energy of motion, and stored in structures and joints, J.
+    pub fn stored_energy<N: Number, M: Number + Into<N>>(
+        &self,
+        motion: AssemblyMotion<'_, N>,
+        memory: &[DofMemory<M>],
+    ) -> N {
+        let half = N::from(0.5);
+        let mut energy = N::ZERO;
+        let both = motion.coordinates.iter().zip(motion.rates);
+        for ((&q, &rate), frequency) in both.zip(&self.frequencies_rad_per_s) {
+            energy = energy + half * (rate * rate + N::from(frequency.powi(2)) * q * q);
+        }
+        self.each(motion, memory, |at| {
+            energy = energy + half * form(&at.joint.stiffness, &at.r);
+            at.each_law(|laws, memory, r, _| energy = energy + laws.stored_energy(memory, r));
+        });
+        energy
+    }
+
+    /// Power of the loads, W.
+    #[must_use]
+    pub fn supplied_power<N: Number>(&self, rates: &[N], loads: &[N]) -> N {
+        let of_coordinate = |(i, &rate): (usize, &N)| rate * sum(self.loads.row(i), loads);
+        let powers = rates.iter().enumerate().map(of_coordinate);
+        powers.fold(N::ZERO, |sum, power| sum + power)
+    }
+
+    /// Power that structures and joints turn into heat, W.
+    pub fn dissipated_power<N: Number, M: Number + Into<N>>(
+        &self,
+        motion: AssemblyMotion<'_, N>,
+        memory: &[DofMemory<M>],
+    ) -> N {
+        let mut power = self.linear_power(motion);
+        self.each(motion, memory, |at| {
+            at.each_law(|laws, memory, r, v| power = power + laws.dissipated_power(memory, r, v));
+        });
+        power
+    }
+
+    /// That of structures, of linear dampers, and of laws that remember nothing, W: the others tell their heat where they move on.
+    #[must_use]
+    pub fn viscous_power<N: Number>(&self, motion: AssemblyMotion<'_, N>) -> N {
+        let mut power = self.linear_power(motion);
+        self.each_law(motion, |laws, r, v| {
+            power = power + of_numbers::<N>(laws).viscous_power(r, v);
+        });
+        power
+    }
+
+    fn linear_power<N: Number>(&self, motion: AssemblyMotion<'_, N>) -> N {
+        let mut power = form(&self.damping_per_s, motion.rates);
+        self.each(motion, &[], |at: At<'_, N, N>| {
+            power = power + form(&at.joint.damping, &at.v);
+        });
+        power
+    }
+
+    /// Calls `of` for every joint.
+    fn each<'a, N: Number, M>(
+        &'a self,
+        motion: AssemblyMotion<'_, N>,
+        memory: &'a [DofMemory<M>],
+        mut of: impl FnMut(At<'a, N, M>),
+    ) {
+        let mut rest = memory;
+        for joint in &self.joints {
+            let mut at = At {
+                joint,
+                r: [N::ZERO; SPACE_COUNT],
+                v: [N::ZERO; SPACE_COUNT],
+                memory: rest,
+            };
+            for (dof, row) in rows(&joint.relative).take(SPACE_COUNT).enumerate() {
+                at.r[dof] = sum(row, motion.coordinates);
+                at.v[dof] = sum(row, motion.rates);
+            }
+            let with_laws = joint.laws.iter().filter(|laws| !laws.are_none()).count();
+            rest = rest.get(with_laws..).unwrap_or_default();
+            of(at);
+        }
+    }
+}
+
+impl<N: Number, M: Number + Into<N>> At<'_, N, M> {
+    /// K r + C ṙ + f
+    fn loads(&self, loads: &mut [N]) {
+        for (dof, load) in loads.iter_mut().enumerate() {
+            *load = sum(self.joint.stiffness.row(dof), &self.r)
+                + sum(self.joint.damping.row(dof), &self.v);
+        }
+        let mut with_laws = self
+            .joint
+            .laws
+            .iter()
+            .enumerate()
+            .filter(|(_, laws)| !laws.are_none());
+        self.each_law(|laws, memory, r, v| {
+            if let Some(load) = with_laws.next().and_then(|(dof, _)| loads.get_mut(dof)) {
+                *load = *load + laws.load(memory, r, v);
+            }
+        });
+    }
+
+    fn each_law(&self, mut of: impl FnMut(DofLaws<N>, &DofMemory<M>, N, N)) {
+        let laws = self.joint.laws.iter().enumerate();
+        let with_laws = laws.filter(|(_, laws)| !laws.are_none());
+        for ((dof, laws), memory) in with_laws.zip(self.memory) {
+            of(of_numbers(laws), memory, self.r[dof], self.v[dof]);
+        }
+    }
+}
+
+fn of_numbers<N: Number>(laws: &DofLaws) -> DofLaws<N> {
+    DofLaws::new(laws.parameters().map(N::from))
+}
+
+fn rows(matrix: &Matrix) -> impl Iterator<Item = &[f64]> {
+    (0..matrix.rows()).map(|row| matrix.row(row))
+}
+
+/// Σ aᵢ xᵢ
+fn sum<N: Number>(factors: &[f64], numbers: &[N]) -> N {
+    let mut sum = N::ZERO;
+    for (&factor, &number) in factors.iter().zip(numbers) {
+        // most matrices are nearly diagonal
+        if factor != 0.0 {
+            sum = sum + N::from(factor) * number;
+        }
+    }
+    sum
+}
+
+/// xᵀ A x
+fn form<N: Number>(matrix: &Matrix, x: &[N]) -> N {
+    let of_row = |(&own, row): (&N, &[f64])| own * sum(row, x);
+    x.iter()
+        .zip(rows(matrix))
+        .map(of_row)
+        .fold(N::ZERO, |sum, own| sum + own)
+}

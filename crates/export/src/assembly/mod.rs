@@ -1,0 +1,207 @@
+//! From an assembly to one FMU: structures and the joints between them, loads in, motion out.
+
+mod declaration;
+mod equations;
+mod experiment;
+mod maker;
+mod names;
+mod reference_run;
+mod variables;
+
+use std::path::PathBuf;
+
+use bolted_joint_assembly::AssemblyModel;
+use bolted_joint_joint::Passivity;
+
+use super::archive::File;
+use super::description::{self, Description};
+use super::documentation::{self, AssemblyPage};
+use super::package::{Packed, packed};
+use super::reference_run::ReferenceRun;
+use super::start_file::HEADER;
+use super::terminals::{self, Point};
+use super::token::token;
+use super::{ExportError, FmiVersion, Timestamp};
+use variables::{List, letters};
+
+/// How an assembly is exported.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AssemblyOptions {
+    /// Version of the FMI standard.
+    pub version: FmiVersion,
+    /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
+    pub platforms: Option<PathBuf>,
+    /// Whether joints that can feed energy into a simulation are exported all the same.
+    pub allow_active: bool,
+    /// Whether joints that are not to be relied on, as their files say, are exported all the same.
+    pub allow_unusable: bool,
+    /// Date in the FMU.
+    pub date: Timestamp,
+}
+
+/// The FMU of an assembly, and what is in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportedAssembly {
+    /// Version of the FMI standard that it follows.
+    pub version: FmiVersion,
+    /// Name of its model, which is the assembly's.
+    pub model_name: String,
+    /// Instantiation token.
+    pub token: String,
+    /// Number of coordinates of the structures.
+    pub coordinates: usize,
+    /// Suggested communication step, s.
+    pub suggested_step_s: f64,
+    /// Its files and libraries.
+    pub packed: Packed,
+}
+
+/// One line for people.
+const SUMMARY: &str = "structures and the bolted joints between them (loads in, motion out)";
+
+/// The FMU of an assembly, of whose file `source_toml` is the text.
+///
+/// The same file, options and program give the same bytes.
+///
+/// # Errors
+///
+/// [`ExportError`]: names that no variable can have, a joint that is active or not to be relied on, libraries that cannot be read.
+pub fn assembly_fmu(
+    model: &AssemblyModel,
+    source_toml: &str,
+    options: &AssemblyOptions,
+) -> Result<ExportedAssembly, ExportError> {
+    names::check(model)?;
+    judge(model, options)?;
+    let assembly = model.equations().map_err(Box::new)?;
+    let list = List::of(model, &assembly);
+    let remembers = assembly.laws().any(|laws| laws.have_memory());
+    let mut description = Description::listing(
+        |tree| {
+            let types = declaration::types(&list, tree);
+            (types, declaration::variables(&list, tree))
+        },
+        declaration::unknowns(&list),
+        remembers,
+    )?;
+    description.set_version(options.version);
+    description.set_names(&model.name, format!("{}: {SUMMARY}", model.name));
+    let experiment = experiment::suggested(model, &assembly);
+    description.set_experiment(experiment);
+    let declared = description.declared()?;
+    let of = |place: usize| {
+        let reference = declaration::reference(place);
+        declared
+            .variables
+            .iter()
+            .find(move |own| own.reference == reference)
+    };
+    let unit = |place: usize| of(place).map_or_else(String::new, |own| own.unit.clone());
+    let nominal = |place: usize| of(place).map_or(1.0, |own| own.nominal);
+    let resources =
+        equations::list_lines(&list, unit, nominal) + &equations::equation_lines(model, &assembly);
+    let library_name = description.model_identifier();
+    let token = token(&[&description.text()?, &resources]);
+    let (xml, declared) = description.finish(&token, options.date)?;
+    let mut files = vec![
+        File::text(description::FILE, xml),
+        File::text(
+            "resources/start.txt",
+            format!(
+                "{HEADER}\nmodel {}\ntoken {token}\n{resources}",
+                equations::MODEL
+            ),
+        ),
+        File::text("resources/assembly.toml", source_toml),
+    ];
+    for joint in &model.joints {
+        let text = joint
+            .file
+            .to_json()
+            .map_err(|_| bolted_joint_joint::LawError::Invalid {
+                problems: joint.file.validate(),
+            })?;
+        files.push(File::text(
+            &format!("resources/{}.joint.json", joint.name),
+            text,
+        ));
+    }
+    let reference_run =
+        reference_run::run(model, &assembly, &list, experiment.communication_step_s)?;
+    let page = documentation::assembly_html(&AssemblyPage {
+        model,
+        summary: SUMMARY,
+        version: options.version,
+        declared: &declared,
+        suggested_step_s: experiment.communication_step_s,
+        reference_tolerance: reference_run.as_ref().map(ReferenceRun::tolerance),
+        token: &token,
+        date: options.date,
+    });
+    files.push(File::text("documentation/index.html", page));
+    files.extend(documentation::licences());
+    files.push(File::text(
+        terminals::FILE,
+        terminals::of_points(&declared, &points(model)),
+    ));
+    if let Some(run) = &reference_run {
+        files.extend(run.files(&model.name));
+    }
+    Ok(ExportedAssembly {
+        version: options.version,
+        model_name: model.name.clone(),
+        token,
+        coordinates: assembly.size(),
+        suggested_step_s: experiment.communication_step_s,
+        packed: packed(
+            files,
+            options.platforms.as_deref(),
+            &library_name,
+            options.version,
+            options.date,
+        )?,
+    })
+}
+
+/// The points of loads and motions, one terminal for each name.
+fn points(model: &AssemblyModel) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::new();
+    let outputs = model.outputs.iter().map(|channel| (channel, false));
+    let inputs = model.inputs.iter().map(|channel| (channel, true));
+    for (channel, is_load) in outputs.chain(inputs) {
+        let dof = letters(channel);
+        let members = match is_load {
+            true => vec![(dof.load, true)],
+            false => vec![(dof.name, false), (dof.rate, false)],
+        };
+        match points.iter_mut().find(|point| point.name == channel.name) {
+            Some(point) => point.members.extend(members),
+            None => points.push(Point {
+                name: channel.name.clone(),
+                kind: dof.kind,
+                members,
+            }),
+        }
+    }
+    points
+}
+
+/// Refuses joints that are active or not to be relied on, unless the user insists.
+fn judge(model: &AssemblyModel, options: &AssemblyOptions) -> Result<(), ExportError> {
+    for joint in &model.joints {
+        let reasons = joint.file.reasons_against();
+        if !(reasons.is_empty() || options.allow_unusable) {
+            let of_joint = |reason: &String| format!("joint {}: {reason}", joint.name);
+            return Err(ExportError::NotUsable {
+                reasons: reasons.iter().map(of_joint).collect(),
+            });
+        }
+        let passivity: Passivity = joint.file.passivity();
+        if !(passivity.is_passive() || options.allow_active) {
+            return Err(ExportError::Active {
+                matrices: passivity.active().cloned().collect(),
+            });
+        }
+    }
+    Ok(())
+}

@@ -13,6 +13,7 @@ use bolted_joint::joint::JointFile;
 
 use super::error::CliError;
 use super::invocation::platforms;
+use super::kind::expect_joint_file;
 use super::output::{check_output, message, print};
 use super::table::number;
 
@@ -106,6 +107,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         ..options(arguments.interface.into())?
     };
     check_output(&arguments.output, &[&arguments.joint_file])?;
+    expect_joint_file(&arguments.joint_file)?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for reason in &exported.reasons_against {
         message(&format!("warning: not to be relied on: {reason}"));

@@ -23,6 +23,7 @@ use bolted_joint::study::{Method, StudyText};
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
+use super::kind::expect_study;
 use super::output::{
     ANY, HTML, SVG, check_output, check_outputs, print, warn, write_file, write_files,
 };
@@ -69,6 +70,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             ("--report", arguments.report.as_ref(), HTML),
         ],
     )?;
+    expect_study(&arguments.study)?;
     let study = StudyText::read(&arguments.study)?;
     match study.method()? {
         Method::FrfDecoupling => {}

@@ -5,17 +5,21 @@
 mod bolt_files;
 mod check;
 mod communication_step;
+mod compare;
+mod convert;
 mod demo;
 mod error;
 mod export;
 mod identified_from;
 mod identify;
 mod invocation;
+mod kind;
 mod output;
 mod predict;
 mod progress;
 mod reproduce;
 mod respond;
+mod show;
 mod table;
 
 use std::ffi::OsString;
@@ -24,12 +28,15 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use check::{CheckArguments, RunLibraryArguments};
+use compare::CompareArguments;
+use convert::ConvertArguments;
 use demo::DemoArguments;
 use export::ExportArguments;
 use identify::IdentifyArguments;
 use predict::PredictArguments;
 use reproduce::ReproduceArguments;
 use respond::RespondArguments;
+use show::ShowArguments;
 
 pub use invocation::{Answer, Call, Program};
 
@@ -59,6 +66,12 @@ enum Command {
     Predict(PredictArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
+    /// Tell what is in measurements, studies, joint files, FMUs, modes and assemblies, and draw it
+    Show(ShowArguments),
+    /// Put joint files beside each other: values, and differences in standard deviations
+    Compare(CompareArguments),
+    /// Write a joint for Nastran, Abaqus, CalculiX, ANSYS, MATLAB or Modelica
+    Convert(ConvertArguments),
     /// Check a joint file or an FMU, and run the FMU's library for a moment
     Check(CheckArguments),
     /// Run the library of an FMU for `check`, in a process of its own
@@ -122,6 +135,9 @@ fn run(arguments: Arguments) -> u8 {
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Show(arguments) => show::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::RunLibrary(arguments) => check::run_library(&arguments),
         Command::Respond(arguments) => respond::run(&arguments),

@@ -66,6 +66,12 @@ pub(super) fn check_outputs<'a>(
     Ok(taken)
 }
 
+/// Whether a path has this ending, in capitals or not.
+pub(super) fn has_extension(path: &Path, wanted: &str) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}
+
 /// Prints a line to stderr; a stderr that nobody reads is no reason to stop.
 pub(super) fn message(text: &str) {
     if with_kept(|kept| kept.messages.push(text.to_owned())).is_none() {

@@ -57,7 +57,13 @@ fn an_error_leaves_the_old_output_alone_and_success_replaces_it() {
     let study = bench.text("study.toml");
     bench.edit("study.toml", "from = 2", "from = 900");
     bench.refused(&format!("{IDENTIFY} o.joint.json"), &["`frequency`"]);
-    bench.refused("export study.toml -o o.fmu", &["is not JSON"]);
+    bench.refused(
+        "export study.toml -o o.fmu",
+        &[
+            "study.toml: found a study of method",
+            "expected a joint file (JSON)",
+        ],
+    );
     bench.write("study.toml", study);
     bench.done(&format!("{IDENTIFY} o.joint.json"));
     bench.done("export j.joint.json -o o.fmu");

@@ -26,6 +26,7 @@ mod xml;
 
 pub use bolted_joint_files::{DateError, Timestamp};
 pub use declared::declared;
+pub use documentation::joint_curves;
 pub use error::ExportError;
 pub use fmi_version::FmiVersion;
 pub use fmu::{Entry, ExportOptions, Exported, fmu_bytes};

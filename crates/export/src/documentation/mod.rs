@@ -17,6 +17,7 @@ use super::{FmiVersion, Interface, Timestamp};
 use bolted_joint_figures::html::{self, escaped};
 use bolted_joint_joint::{JointFile, OverPreload, Passivity};
 
+pub use curves::joint_curves;
 pub(super) use licences::licences;
 
 /// What the page tells.

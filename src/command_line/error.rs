@@ -20,7 +20,7 @@ use bolted_joint::identify::space::SpatialError;
 use bolted_joint::joint::{JointFileError, LawError};
 use bolted_joint::reproduce::ReproduceError;
 use bolted_joint::respond::RespondError;
-use bolted_joint::show::ShowError;
+use bolted_joint::show::{DraftError, ShowError};
 use bolted_joint::study::StudyError;
 
 /// Why a command did not do what it was asked for.
@@ -78,6 +78,7 @@ from_the_library!(
     AssemblyError,
     CompareError,
     DateError,
+    DraftError,
     ExportError,
     FrfError,
     IdentifyError,

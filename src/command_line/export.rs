@@ -14,7 +14,7 @@ use bolted_joint::joint::JointFile;
 use super::error::CliError;
 use super::invocation::platforms;
 use super::kind::expect_joint_file;
-use super::output::{check_output, message, print};
+use super::output::{check_output, is_standard_output, message, print, write_file};
 use super::table::number;
 
 /// `export`
@@ -158,7 +158,10 @@ pub(super) fn export_to(
         },
         _ => source.into(),
     })?;
-    exported.write(fmu)?;
+    match is_standard_output(fmu) {
+        true => write_file(fmu, exported.bytes())?,
+        false => exported.write(fmu)?,
+    }
     Ok(exported)
 }
 

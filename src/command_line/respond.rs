@@ -23,7 +23,7 @@ use bolted_joint::study::{Method, StudyText};
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::kind::{expect, expect_joint_file};
-use super::output::{check_output, print, write_file};
+use super::output::{check_output, is_standard_output, print, write_file};
 use super::progress::Progress;
 
 /// `respond`
@@ -291,6 +291,9 @@ fn band_table(bands: &Bands, given: &Bands, bolt: &str) -> String {
 }
 
 fn format(path: &Path) -> Result<Format, CliError> {
+    if is_standard_output(path) {
+        return Ok(Format::Table);
+    }
     let extension = path.extension().and_then(|extension| extension.to_str());
     match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("csv") => Ok(Format::Table),

@@ -18,6 +18,7 @@ mod estimator;
 mod examples;
 mod export;
 mod identified;
+mod init;
 mod joint_file;
 mod modal_file;
 mod model_choice;

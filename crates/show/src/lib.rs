@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod assembly;
+mod draft;
 mod error;
 mod fmu;
 mod functions;
@@ -21,6 +22,7 @@ use std::path::Path;
 
 use bolted_joint_study::StudyText;
 
+pub use draft::{Draft, DraftError, draft};
 pub use error::ShowError;
 pub use kind::{FileKind, command_for};
 pub use quality::{DrivePoint, Reciprocity, drive_points, half_power_lines, reciprocities};

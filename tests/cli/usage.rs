@@ -79,9 +79,9 @@ fn shells_and_man_know_every_command() {
 fn misspelt_commands_and_keys_get_the_ones_that_were_meant() {
     let bench = Bench::new();
     has(&bench.run("identfy study.toml").stderr, &["identify"]);
-    bench.write("s.toml", "method = \"frf-decoupling\"\nnaem = \"x\"\n");
+    bench.write("s.toml", "method = \"frf-decoupling\"\nnane = \"x\"\n");
     bench.refused(
         "identify s.toml -o o.joint.json",
-        &["unknown field `naem`", "did you mean `name`?"],
+        &["unknown field `nane`", "did you mean `name`?"],
     );
 }

@@ -1,13 +1,13 @@
 //! `show`: what is in a measurement, a study, a joint file, an FMU, modes or an assembly.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::{Value, json};
 
 use bolted_joint::export::Timestamp;
-use bolted_joint::report::{shown_page, shown_svg};
+use bolted_joint::report::{ShownFile, shown_page, shown_svg};
 use bolted_joint::show::{Shown, show};
 
 use super::error::CliError;
@@ -81,7 +81,7 @@ fn told(shown: &Shown) -> String {
     text
 }
 
-fn drawn(path: &PathBuf, all: &mut [Shown]) -> Result<String, CliError> {
+fn drawn(path: &Path, all: &mut [Shown]) -> Result<String, CliError> {
     let title = match &*all {
         [one] => one.path.display().to_string(),
         all => format!("{} files", all.len()),
@@ -120,8 +120,12 @@ fn drawn(path: &PathBuf, all: &mut [Shown]) -> Result<String, CliError> {
         .collect();
     let facts: Vec<_> = all.iter().map(facts).collect();
     let files = names.iter().zip(&facts).zip(all.iter());
-    let files: Vec<_> = files
-        .map(|((name, facts), shown)| (name.as_str(), facts.as_slice(), shown.pictures.as_slice()))
+    let files: Vec<ShownFile<'_>> = files
+        .map(|((name, facts), shown)| ShownFile {
+            name,
+            facts,
+            pictures: &shown.pictures,
+        })
         .collect();
     Ok(shown_page(&title, &files, Timestamp::from_environment()?))
 }

@@ -40,7 +40,7 @@ pub(crate) fn deck(linear: &Linear, options: &Options, mut head: Head) -> Conver
     }
     for &axis in &linear.axes {
         let of = |matrix: &[[f64; 6]; 6]| matrix[axis].iter().sum::<f64>();
-        deck.to_ground(axis, of(&linear.stiffness), of(&linear.damping));
+        deck.on_its_own(axis, of(&linear.stiffness), of(&linear.damping));
     }
     for (i, j, stiffness, damping) in linear.pairs() {
         deck.between(i, j, -stiffness, -damping);
@@ -90,7 +90,7 @@ impl Deck {
         );
     }
 
-    fn to_ground(&mut self, axis: usize, stiffness: f64, damping: f64) {
+    fn on_its_own(&mut self, axis: usize, stiffness: f64, damping: f64) {
         let node = self.node(axis);
         self.element("SPRING1", &[node], "SPRING", "1", stiffness);
         let ground = self.ground(axis);

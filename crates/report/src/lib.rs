@@ -26,7 +26,7 @@ pub use layered_beam_figure::LayeredBeamFigure;
 pub use page::IdentificationReport;
 pub use prediction::PredictionReport;
 pub use pressure_figure::PressureFigure;
-pub use shown::{DrawnFunction, FunctionGroup, ShownPicture, shown_page, shown_svg};
+pub use shown::{DrawnFunction, FunctionGroup, ShownFile, ShownPicture, shown_page, shown_svg};
 pub use spatial::{SpatialReport, spatial_figure};
 pub use spectrum_figure::spectrum_figure;
 

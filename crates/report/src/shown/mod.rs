@@ -18,15 +18,30 @@ pub enum ShownPicture {
     Curves(LineFigure<'static>, String),
 }
 
-/// A page with a section for each file: its name, what is in it (label and text), and its pictures.
+/// A file on a page.
+#[derive(Debug, Clone, Copy)]
+pub struct ShownFile<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What is in it: labels and texts, of one line or several.
+    pub facts: &'a [(String, String)],
+    /// Its pictures.
+    pub pictures: &'a [ShownPicture],
+}
+
+/// A page with a section for each file.
 #[must_use]
-pub fn shown_page(
-    title: &str,
-    files: &[(&str, &[(String, String)], &[ShownPicture])],
-    written: Timestamp,
-) -> String {
+pub fn shown_page(title: &str, files: &[ShownFile<'_>], written: Timestamp) -> String {
     let mut sections = String::new();
-    for (number, (name, facts, pictures)) in files.iter().enumerate() {
+    for (
+        number,
+        &ShownFile {
+            name,
+            facts,
+            pictures,
+        },
+    ) in files.iter().enumerate()
+    {
         sections += &format!("<h2>{}</h2>\n", escaped(name));
         let rows = facts.iter().map(|(label, text)| {
             let lines: Vec<String> = text.lines().map(escaped).collect();
@@ -150,7 +165,12 @@ mod tests {
     fn a_page_has_a_chart_with_magnitude_phase_and_coherence_and_the_facts() {
         let facts = [("lines".to_owned(), "50\nfrom <1> Hz".to_owned())];
         let written = Timestamp::from_environment().unwrap();
-        let page = shown_page("x", &[("a.uff", &facts, &[group()])], written);
+        let file = ShownFile {
+            name: "a.uff",
+            facts: &facts,
+            pictures: &[group()],
+        };
+        let page = shown_page("x", &[file], written);
         for expected in [
             "50<br>from &lt;1&gt; Hz",
             "id=\"shown-0-0-1\"",

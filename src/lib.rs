@@ -53,6 +53,8 @@ pub mod command_line;
 
 pub use bolted_joint_assembly as assembly;
 pub use bolted_joint_check as check;
+pub use bolted_joint_compare as compare;
+pub use bolted_joint_convert as convert;
 pub use bolted_joint_cosimulation as cosimulation;
 pub use bolted_joint_export as export;
 pub use bolted_joint_files::TextFileError;
@@ -64,6 +66,7 @@ pub use bolted_joint_predict as predict;
 pub use bolted_joint_report as report;
 pub use bolted_joint_reproduce as reproduce;
 pub use bolted_joint_respond as respond;
+pub use bolted_joint_show as show;
 pub use bolted_joint_study as study;
 
 /// Identification of joints from functions of substructures and assembly, and of lap models from frequencies and responses.

@@ -1,7 +1,6 @@
 //! `check`: is a joint file or an FMU what it should be?
 
 use std::fmt::Write as _;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -16,10 +15,12 @@ use bolted_joint::check::{
 };
 use bolted_joint::export::Interface;
 use bolted_joint::joint::JointFile;
+use bolted_joint::show::FileKind;
 
 use super::communication_step::{NeighbourArguments, communication_step};
 use super::error::CliError;
 use super::invocation::{Program, program};
+use super::kind::expect;
 use super::output::print;
 use super::table::number;
 
@@ -68,13 +69,18 @@ struct Report {
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let path = &arguments.file;
-    let report = if is_zip(path) {
-        match inspect_assembly(path)? {
+    let kind = expect(path, "a joint file (JSON) or an FMU", |kind| {
+        matches!(
+            kind,
+            FileKind::JointFile | FileKind::OtherJson | FileKind::Fmu | FileKind::OtherZip
+        )
+    })?;
+    let report = match kind {
+        FileKind::Fmu | FileKind::OtherZip => match inspect_assembly(path)? {
             Some(inspection) => assembly(path, &inspection, arguments)?,
             None => fmu(path, arguments)?,
-        }
-    } else {
-        joint_file(path, arguments)?
+        },
+        _ => joint_file(path, arguments)?,
     };
     if arguments.json {
         let mut value = json!({
@@ -120,14 +126,6 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
 /// The child process of [`run`].
 pub(super) fn run_library(arguments: &RunLibraryArguments) -> Result<(), CliError> {
     Ok(execute_script(&arguments.script, &arguments.journal)?)
-}
-
-/// Whether the file begins as a zip archive does; one that cannot be read is left to its reader's message.
-fn is_zip(path: &Path) -> bool {
-    let mut magic = [0; 2];
-    std::fs::File::open(path)
-        .and_then(|mut file| file.read_exact(&mut magic))
-        .is_ok_and(|()| magic == *b"PK")
 }
 
 fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {

@@ -9,6 +9,8 @@ use thiserror::Error;
 
 use bolted_joint::assembly::AssemblyError;
 use bolted_joint::check::CheckError;
+use bolted_joint::compare::CompareError;
+use bolted_joint::convert::ConvertError;
 use bolted_joint::cosimulation::CouplingError;
 use bolted_joint::export::{DateError, ExportError};
 use bolted_joint::frf::FrfError;
@@ -18,6 +20,7 @@ use bolted_joint::identify::space::SpatialError;
 use bolted_joint::joint::{JointFileError, LawError};
 use bolted_joint::reproduce::ReproduceError;
 use bolted_joint::respond::RespondError;
+use bolted_joint::show::{DraftError, ShowError};
 use bolted_joint::study::StudyError;
 
 /// Why a command did not do what it was asked for.
@@ -30,12 +33,21 @@ pub(super) enum CliError {
     Unexportable { path: PathBuf, source: ExportError },
     #[error("{}: {source}", path.display())]
     Preload { path: PathBuf, source: LawError },
+    #[error("{}: {source}", path.display())]
+    Unconvertible { path: PathBuf, source: ConvertError },
     #[error("communication step: {0}")]
     Coupling(CouplingError),
     #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
     Unwritable { path: PathBuf, source: io::Error },
     #[error("{}: found it to be the same file as {}, expected another; give the output a name of its own", path.display(), other.display())]
     SameFile { path: PathBuf, other: PathBuf },
+    #[error("{}: found {found}, expected {expected}; {instead}", path.display())]
+    Kind {
+        path: PathBuf,
+        found: String,
+        expected: &'static str,
+        instead: String,
+    },
     #[error("{option}: found {found}, expected {expected}")]
     Option {
         option: &'static str,
@@ -64,7 +76,9 @@ macro_rules! from_the_library {
 
 from_the_library!(
     AssemblyError,
+    CompareError,
     DateError,
+    DraftError,
     ExportError,
     FrfError,
     IdentifyError,
@@ -73,6 +87,7 @@ from_the_library!(
     LapError,
     ReproduceError,
     RespondError,
+    ShowError,
     SpatialError,
     StudyError
 );

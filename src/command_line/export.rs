@@ -15,7 +15,8 @@ use bolted_joint::joint::JointFile;
 
 use super::error::CliError;
 use super::invocation::platforms;
-use super::output::{check_output, message, print};
+use super::kind::expect_joint_file;
+use super::output::{check_output, is_standard_output, message, print, write_file};
 use super::table::number;
 
 /// `export`
@@ -111,6 +112,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         ..options(interface.into())?
     };
     check_output(&arguments.output, &[&arguments.joint_file])?;
+    expect_joint_file(&arguments.joint_file)?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for reason in &exported.reasons_against {
         message(&format!("warning: not to be relied on: {reason}"));
@@ -161,7 +163,10 @@ pub(super) fn export_to(
         },
         _ => source.into(),
     })?;
-    exported.write(fmu)?;
+    match is_standard_output(fmu) {
+        true => write_file(fmu, exported.bytes())?,
+        false => exported.write(fmu)?,
+    }
     Ok(exported)
 }
 

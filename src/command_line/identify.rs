@@ -23,9 +23,8 @@ use bolted_joint::study::{Method, StudyText};
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
-use super::output::{
-    ANY, HTML, SVG, check_output, check_outputs, print, warn, write_file, write_files,
-};
+use super::kind::expect_study;
+use super::output::{ANY, HTML, SVG, check_output, check_outputs, print, warn, write_files};
 use super::progress::Progress;
 use super::table::{Table, number};
 
@@ -69,6 +68,7 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
             ("--report", arguments.report.as_ref(), HTML),
         ],
     )?;
+    expect_study(&arguments.study)?;
     let study = StudyText::read(&arguments.study)?;
     match study.method()? {
         Method::FrfDecoupling => {}
@@ -117,13 +117,10 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
         let all: Vec<String> = against.chain(warnings.iter().cloned()).collect();
         report(&study, &found, &all, written)
     });
-    write_joint_files(&outputs, &joint_files)?;
-    if let Some((path, drawing)) = drawing {
-        write_file(path, drawing.as_bytes())?;
-    }
-    if let (Some(path), Some(page)) = (&arguments.report, page) {
-        write_file(path, page.as_bytes())?;
-    }
+    let beside = drawing
+        .into_iter()
+        .chain(arguments.report.as_ref().zip(page));
+    write_all(&outputs, &joint_files, &beside.collect::<Vec<_>>())?;
     warn(&warnings);
     if arguments.json {
         let bolts: Vec<_> = outputs
@@ -187,12 +184,18 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     CliError::unless_usable(&outputs[0], &found.reasons_against)
 }
 
-/// Writes every joint file or, if one cannot be written, none.
-fn write_joint_files<T>(outputs: &[PathBuf], files: &[(T, JointFile)]) -> Result<(), CliError> {
+/// Writes every joint file and what goes with them or, if one cannot be written, none.
+fn write_all<T>(
+    outputs: &[PathBuf],
+    files: &[(T, JointFile)],
+    beside: &[(&PathBuf, String)],
+) -> Result<(), CliError> {
     let texts = files.iter().map(|(_, file)| file.to_json());
     let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
     let contents = outputs.iter().zip(&texts);
+    let beside = beside.iter().map(|(path, text)| (*path, text));
     let contents: Vec<(&Path, &[u8])> = contents
+        .chain(beside)
         .map(|(output, text)| (output.as_path(), text.as_bytes()))
         .collect();
     write_files(&contents)

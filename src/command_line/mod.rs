@@ -5,31 +5,42 @@
 mod bolt_files;
 mod check;
 mod communication_step;
+mod compare;
+mod convert;
 mod demo;
 mod error;
 mod export;
 mod identified_from;
 mod identify;
+mod init;
 mod invocation;
+mod kind;
 mod output;
 mod predict;
 mod progress;
 mod reproduce;
 mod respond;
+mod shell;
+mod show;
 mod table;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 use check::{CheckArguments, RunLibraryArguments};
+use compare::CompareArguments;
+use convert::ConvertArguments;
 use demo::DemoArguments;
 use export::ExportArguments;
 use identify::IdentifyArguments;
+use init::InitArguments;
 use predict::PredictArguments;
 use reproduce::ReproduceArguments;
 use respond::RespondArguments;
+use shell::{CompletionsArguments, ManArguments};
+use show::ShowArguments;
 
 pub use invocation::{Answer, Call, Program};
 
@@ -53,12 +64,20 @@ struct Arguments {
 enum Command {
     /// Identify a joint from built-in data, write its joint file and FMUs, and draw the fit
     Demo(DemoArguments),
+    /// Write a first study from the files of a folder, with comments on what to decide
+    Init(InitArguments),
     /// Identify the joint of a study and write its joint file
     Identify(IdentifyArguments),
     /// Predict a joint from surfaces, materials and bolts, before anything is built, and write its joint file
     Predict(PredictArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
+    /// Tell what is in measurements, studies, joint files, FMUs, modes and assemblies, and draw it
+    Show(ShowArguments),
+    /// Put joint files beside each other: values, and differences in standard deviations
+    Compare(CompareArguments),
+    /// Write a joint for Nastran, Abaqus, CalculiX, ANSYS, MATLAB or Modelica
+    Convert(ConvertArguments),
     /// Check a joint file or an FMU, and run the FMU's library for a moment
     Check(CheckArguments),
     /// Run the library of an FMU for `check`, in a process of its own
@@ -68,6 +87,10 @@ enum Command {
     Respond(RespondArguments),
     /// Compute published tables anew, of Tol's, Pirdayr's, Tian's or Kavi's, published and obtained values side by side
     Reproduce(ReproduceArguments),
+    /// Print what a shell needs to complete commands and options
+    Completions(CompletionsArguments),
+    /// Write pages for `man`
+    Man(ManArguments),
 }
 
 /// Runs the command line of this process: results go to standard output, messages to standard error.
@@ -117,15 +140,22 @@ const USAGE: u8 = 2;
 
 /// Runs a command and gives what the process is to end with.
 fn run(arguments: Arguments) -> u8 {
+    output::begin();
     let result = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
+        Command::Init(arguments) => init::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Show(arguments) => show::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::RunLibrary(arguments) => check::run_library(&arguments),
         Command::Respond(arguments) => respond::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
+        Command::Completions(arguments) => shell::completions(&arguments, Arguments::command()),
+        Command::Man(arguments) => shell::man(&arguments, Arguments::command()),
     };
     match result {
         Ok(()) => 0,

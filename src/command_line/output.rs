@@ -1,5 +1,6 @@
 //! Writing of results: to files whole or not at all, to stdout with errors reported, messages to stderr.
 
+use std::cell::Cell;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{self, Write as _};
@@ -10,12 +11,37 @@ use bolted_joint_files::whole_file;
 use super::error::CliError;
 use super::invocation::with_kept;
 
+/// The output that is standard output.
+const STANDARD_OUTPUT: &str = "-";
+
+thread_local! {
+    /// Whether a file goes to standard output, so that what is said of it goes to standard error.
+    static IS_TAKEN: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Lets standard output be free at the beginning of a command.
+pub(super) fn begin() {
+    IS_TAKEN.set(false);
+}
+
+/// Whether an output is standard output.
+pub(super) fn is_standard_output(path: &Path) -> bool {
+    path.as_os_str() == STANDARD_OUTPUT
+}
+
 /// Refuses an output that cannot be written or would replace an input, before anything is computed.
 pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliError> {
     let unwritable = |source| CliError::Unwritable {
         path: path.to_owned(),
         source,
     };
+    if is_standard_output(path) {
+        if IS_TAKEN.replace(true) {
+            let expected = "standard output for one file alone";
+            return Err(CliError::option("-", "a second output", expected));
+        }
+        return Ok(());
+    }
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -25,6 +51,23 @@ pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliEr
     }
     if path.is_dir() {
         return Err(unwritable(io::ErrorKind::IsADirectory.into()));
+    }
+    if let Ok(found) = fs::metadata(path) {
+        // an error of the superuser too, who could write it: it was made read-only for a reason
+        if found.permissions().readonly() {
+            let why = "the file is read-only";
+            return Err(unwritable(io::Error::new(
+                io::ErrorKind::PermissionDenied,
+                why,
+            )));
+        }
+        if let Ok(target) = fs::read_link(path) {
+            message(&format!(
+                "note: {} is a link and stays one: {} is written",
+                path.display(),
+                target.display()
+            ));
+        }
     }
     let same = |other: &&&PathBuf| match (fs::canonicalize(path), fs::canonicalize(other)) {
         (Ok(path), Ok(other)) => path == other,
@@ -56,7 +99,9 @@ pub(super) fn check_outputs<'a>(
     for (option, path, (endings, expected)) in asked {
         let Some(path) = *path else { continue };
         let extension = path.extension().and_then(|extension| extension.to_str());
-        let fits = endings.is_empty() || extension.is_some_and(|found| endings.contains(&found));
+        let fits = endings.is_empty()
+            || is_standard_output(path)
+            || extension.is_some_and(|found| endings.contains(&found));
         if !fits {
             return Err(CliError::option(option, path.display(), expected));
         }
@@ -64,6 +109,13 @@ pub(super) fn check_outputs<'a>(
         taken.push(path);
     }
     Ok(taken)
+}
+
+/// Whether a path has this ending, in capitals or not; a table (CSV) may go to standard output.
+pub(super) fn has_extension(path: &Path, wanted: &str) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+        || is_standard_output(path) && wanted == "csv"
 }
 
 /// Prints a line to stderr; a stderr that nobody reads is no reason to stop.
@@ -82,19 +134,56 @@ pub(super) fn warn(warnings: &[String]) {
 
 /// Writes files whole or, if one cannot be written, none.
 pub(super) fn write_files(files: &[(&Path, &[u8])]) -> Result<(), CliError> {
-    whole_file::write_all(files).map_err(|(path, source)| CliError::Unwritable { path, source })
+    // a pipe has no old contents that could be put back
+    let is_stream =
+        |path: &Path| fs::metadata(path).is_ok_and(|own| !own.is_file() && !own.is_dir());
+    let (streams, written): (Vec<_>, Vec<_>) = files
+        .iter()
+        .copied()
+        .partition(|(path, _)| is_standard_output(path) || is_stream(path));
+    whole_file::write_all(&written)
+        .map_err(|(path, source)| CliError::Unwritable { path, source })?;
+    streams
+        .iter()
+        .try_for_each(|(path, contents)| match is_standard_output(path) {
+            true => to_standard_output(contents),
+            false => whole_file::write(path, contents).map_err(|source| CliError::Unwritable {
+                path: path.to_path_buf(),
+                source,
+            }),
+        })
 }
 
 /// Writes a file whole or not at all.
 pub(super) fn write_file(path: &Path, contents: &[u8]) -> Result<(), CliError> {
-    whole_file::write(path, contents).map_err(|source| CliError::Unwritable {
-        path: path.to_owned(),
-        source,
-    })
+    write_files(&[(path, contents)])
 }
 
-/// Prints a result to stdout.
+/// Contents of a file to standard output, as they are.
+fn to_standard_output(contents: &[u8]) -> Result<(), CliError> {
+    let kept = with_kept(|kept| {
+        let text = std::str::from_utf8(contents);
+        text.map(|text| kept.printed.push_str(text))
+    });
+    match kept {
+        None => {}
+        Some(Ok(())) => return Ok(()),
+        Some(Err(_)) => {
+            let expected = "the name of a file: it is no text";
+            return Err(CliError::option("--output", STANDARD_OUTPUT, expected));
+        }
+    }
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(contents)?;
+    Ok(stdout.flush()?)
+}
+
+/// Prints a result to stdout; to stderr where stdout has a file.
 pub(super) fn print(text: &str) -> Result<(), CliError> {
+    if IS_TAKEN.get() {
+        message(text.trim_end());
+        return Ok(());
+    }
     if with_kept(|kept| kept.printed.push_str(text)).is_some() {
         return Ok(());
     }

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::error::CliError;
+use super::kind::expect_study;
 use bolted_joint::study::{Method, StudyText};
 
 /// `predict`
@@ -45,6 +46,7 @@ pub(super) struct PredictArguments {
 }
 
 pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
+    expect_study(&arguments.study)?;
     let study = StudyText::read(&arguments.study)?;
     let methods = [
         Method::FractalContact,

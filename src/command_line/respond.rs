@@ -13,16 +13,17 @@ use clap::{Args, Subcommand, ValueEnum};
 use nalgebra::DMatrix;
 use serde_json::json;
 
-use bolted_joint::assembly::AssemblyModel;
 use bolted_joint::frf::write_uff58;
 use bolted_joint::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
 use bolted_joint::joint::JointFile;
 use bolted_joint::respond::{Pollution, to_csv, with_noise};
+use bolted_joint::show::FileKind;
 use bolted_joint::study::{Method, StudyText};
 
 use super::bolt_files::of_bolts;
 use super::error::CliError;
-use super::output::{check_output, print, write_file};
+use super::kind::{expect, expect_joint_file};
+use super::output::{check_output, is_standard_output, print, write_file};
 use super::progress::Progress;
 
 /// `respond`
@@ -120,8 +121,21 @@ enum Format {
 const STEP_HZ: f64 = 0.25;
 
 pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
+    let kind = expect(
+        &arguments.study,
+        "a study or an assembly file (TOML)",
+        |kind| {
+            matches!(
+                kind,
+                FileKind::Study(_) | FileKind::Assembly | FileKind::OtherJson
+            )
+        },
+    )?;
+    if let Some(joint) = &arguments.joint {
+        expect_joint_file(joint)?;
+    }
     let text = StudyText::read(&arguments.study)?;
-    if AssemblyModel::is_one(&text) {
+    if kind == FileKind::Assembly {
         return assembly::run(arguments, &text);
     }
     let method = text.method()?;
@@ -277,6 +291,9 @@ fn band_table(bands: &Bands, given: &Bands, bolt: &str) -> String {
 }
 
 fn format(path: &Path) -> Result<Format, CliError> {
+    if is_standard_output(path) {
+        return Ok(Format::Table);
+    }
     let extension = path.extension().and_then(|extension| extension.to_str());
     match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("csv") => Ok(Format::Table),

@@ -160,7 +160,7 @@ fn what_is_no_fmu_is_said_to_be_none() {
     bench.write("picture.png", PNG);
     bench.refused("check picture.png", &["picture.png: found bytes that are no text", "expected a joint file"]);
     bench.refused("check missing.fmu", &["missing.fmu: cannot be read"]);
-    bench.refused("export lap.fmu -o o.fmu", &["lap.fmu: found a zip archive (an FMU?)"]);
+    bench.refused("export lap.fmu -o o.fmu", &["lap.fmu: found an FMU, expected a joint file (JSON)", "`bolted-joint check lap.fmu`"]);
 }
 
 #[test]

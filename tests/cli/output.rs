@@ -57,7 +57,13 @@ fn an_error_leaves_the_old_output_alone_and_success_replaces_it() {
     let study = bench.text("study.toml");
     bench.edit("study.toml", "from = 2", "from = 900");
     bench.refused(&format!("{IDENTIFY} o.joint.json"), &["`frequency`"]);
-    bench.refused("export study.toml -o o.fmu", &["is not JSON"]);
+    bench.refused(
+        "export study.toml -o o.fmu",
+        &[
+            "study.toml: found a study of method",
+            "expected a joint file (JSON)",
+        ],
+    );
     bench.write("study.toml", study);
     bench.done(&format!("{IDENTIFY} o.joint.json"));
     bench.done("export j.joint.json -o o.fmu");
@@ -179,4 +185,59 @@ fn a_name_that_is_no_text_is_as_good_as_any() {
     let outcome = Outcome::of(command.arg(name).output().unwrap());
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     assert!(fs::metadata(bench.path("").join(name)).is_ok());
+}
+
+#[test]
+fn a_dash_is_standard_output_and_words_go_to_standard_error() {
+    let bench = bench();
+    let outcome = bench.done(&format!("{IDENTIFY} -"));
+    let file: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+    assert_eq!(file["format"], "bolted-joint/1");
+    has(&outcome.stderr, &["wrote -"]);
+    let outcome = bench.done("convert j.joint.json --to nastran -o -");
+    assert!(
+        outcome.stdout.starts_with("$ two bodies\n"),
+        "{}",
+        outcome.stdout
+    );
+    bench.done("export j.joint.json -o o.fmu");
+    let fmu = bench.command("export j.joint.json -o -").output().unwrap();
+    assert!(fmu.status.success() && fmu.stdout.starts_with(b"PK"));
+    assert!(!bench.names().iter().any(|name| name == "-"));
+    bench.refused(
+        &format!("{IDENTIFY} - --report -"),
+        &["-: found a second output", "one file alone"],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_file_is_not_replaced_and_a_link_is_told() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let bench = bench();
+    bench.write("o.joint.json", "kept");
+    let mode = |mode| fs::Permissions::from_mode(mode);
+    fs::set_permissions(bench.path("o.joint.json"), mode(0o444)).unwrap();
+    let expected = ["o.joint.json: cannot be written", "the file is read-only"];
+    bench.refused(&format!("{IDENTIFY} o.joint.json"), &expected);
+    assert_eq!(bench.text("o.joint.json"), "kept");
+    fs::set_permissions(bench.path("o.joint.json"), mode(0o644)).unwrap();
+    std::os::unix::fs::symlink("o.joint.json", bench.path("link.json")).unwrap();
+    let outcome = bench.done(&format!("{IDENTIFY} link.json"));
+    has(
+        &outcome.stderr,
+        &["link.json is a link and stays one: o.joint.json is written"],
+    );
+    assert_ne!(bench.text("o.joint.json"), "kept");
+}
+
+#[test]
+fn nothing_is_written_where_the_report_cannot_be() {
+    let bench = bench();
+    fs::create_dir(bench.path("closed")).unwrap();
+    bench.refused(
+        &format!("{IDENTIFY} o.joint.json --report closed"),
+        &["--report: found closed"],
+    );
+    assert!(!bench.names().iter().any(|name| name == "o.joint.json"));
 }

@@ -51,3 +51,37 @@ fn help_says_what_each_command_needs() {
     let expected = format!("bolted-joint {}\n", env!("CARGO_PKG_VERSION"));
     assert_eq!(version, expected);
 }
+
+#[test]
+fn shells_and_man_know_every_command() {
+    let bench = Bench::new();
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let text = bench.done(&format!("completions {shell}")).stdout;
+        has(&text, &["identify", "convert", "at-rest"]);
+    }
+    bench.done("man .");
+    let names = bench.names();
+    for command in [
+        "identify", "predict", "respond", "export", "show", "compare", "convert", "check",
+    ] {
+        assert!(
+            names.contains(&format!("bolted-joint-{command}.1")),
+            "{names:?}"
+        );
+    }
+    has(&bench.text("bolted-joint.1"), &[".TH bolted", "Exit codes"]);
+    assert!(!names.iter().any(|name| name.contains("run-library")));
+    bench.refused("man missing", &["cannot be written", "give a path"]);
+    assert_eq!(bench.run("completions ksh").code, Some(2));
+}
+
+#[test]
+fn misspelt_commands_and_keys_get_the_ones_that_were_meant() {
+    let bench = Bench::new();
+    has(&bench.run("identfy study.toml").stderr, &["identify"]);
+    bench.write("s.toml", "method = \"frf-decoupling\"\nnane = \"x\"\n");
+    bench.refused(
+        "identify s.toml -o o.joint.json",
+        &["unknown field `nane`", "did you mean `name`?"],
+    );
+}

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_joint::JointFile;
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{StudyError, StudyText, TextKind};
 
 use crate::error::AssemblyError;
 use crate::model::{AssemblyModel, NamedStructure, PlacedJoint};
@@ -14,15 +14,10 @@ use crate::structure::structure;
 use crate::tables::{AssemblyTables, JointTable};
 
 impl AssemblyModel {
-    /// Whether a text is an assembly file: it has `structures`, which no study has.
+    /// Whether a text is an assembly file, be it with mistakes in it.
     #[must_use]
     pub fn is_one(text: &StudyText) -> bool {
-        #[derive(serde::Deserialize)]
-        struct Structures {
-            #[serde(rename = "structures")]
-            _there: BTreeMap<String, serde::de::IgnoredAny>,
-        }
-        text.tables::<Structures>().is_ok()
+        text.kind() == Some(TextKind::Assembly)
     }
 
     /// An assembly from its text, with the files that it names.

@@ -30,6 +30,7 @@ mod xml;
 pub use assembly::{AssemblyOptions, ExportedAssembly, assembly_fmu};
 pub use bolted_joint_files::{DateError, Timestamp};
 pub use declared::declared;
+pub use documentation::joint_curves;
 pub use error::ExportError;
 pub use fmi_version::FmiVersion;
 pub use fmu::{ExportOptions, Exported, fmu_bytes};

@@ -14,6 +14,6 @@ pub mod text;
 pub use axis::{Axis, Tick, TickLabel, Ticks};
 pub use line_figure::{Line, LineFigure, Scale, Shape};
 pub use look::Look;
-pub use response_figure::{ResponseCurve, ResponseFigure, ResponsePanel};
+pub use response_figure::{COLOURS, ResponseCurve, ResponseFigure, ResponsePanel};
 pub use strip::{FAINT_TEXT, FONTS, LABELS_BELOW, Strip, TEXT, VALUE_LABELS, draw_path};
 pub use svg::{Lettering, Manner, PathData, Point, Svg};

@@ -24,8 +24,8 @@ const BETWEEN_ENTRIES: f64 = 22.0;
 const STROKE: f64 = 1.6;
 const DASHES: &str = "4 3";
 
-/// The palette of Okabe and Ito, which the colour-blind can tell apart, without its yellow.
-const COLOURS: [&str; 7] = [
+/// Colours of curves: the palette of Okabe and Ito, which the colour-blind can tell apart, without its yellow.
+pub const COLOURS: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
 ];
 

@@ -2,11 +2,13 @@
 //! are written whole or not at all, and who wrote them and when.
 #![forbid(unsafe_code)]
 
+mod number;
 pub mod text_file;
 pub mod text_table;
 mod timestamp;
 pub mod whole_file;
 
+pub use number::number;
 pub use text_file::TextFileError;
 pub use timestamp::{Civil, DateError, Timestamp};
 

@@ -6,6 +6,8 @@ use std::fmt;
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
+use super::Dof;
+
 /// A motion per load: the three forms in which frequency response functions are measured.
 ///
 /// Motion is m or rad and its rates, load is N or N·m. Serde uses the lower-case names, `"receptance"` and so on.
@@ -70,6 +72,17 @@ impl fmt::Display for Quantity {
             Self::Mobility => "mobility",
             Self::Accelerance => "accelerance",
         })
+    }
+}
+
+/// Unit of a receptance between two degrees of freedom, by whether they are rotations.
+#[must_use]
+pub fn receptance_unit(response: Dof, reference: Dof) -> &'static str {
+    match [response, reference].map(|dof| dof.direction().is_rotation()) {
+        [false, false] => "m/N",
+        [false, true] => "m/(N·m)",
+        [true, false] => "rad/N",
+        [true, true] => "rad/(N·m)",
     }
 }
 

@@ -18,16 +18,23 @@ const LOOKED_AT: u64 = 4096;
 
 /// What a file is by its first bytes and its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
+pub enum Container {
+    /// Universal file.
     Universal,
+    /// Table (CSV).
     Table,
+    /// NumPy archive (npz), or another zip archive.
     Archive,
+    /// One NumPy array (npy).
     SingleArray,
+    /// MATLAB file (mat).
     Matlab,
 }
 
-impl Format {
-    fn of(path: &Path, beginning: &[u8]) -> Self {
+impl Container {
+    /// What a file is by its name and its beginning, of which a few lines are enough; `None` if neither tells.
+    #[must_use]
+    pub fn told_by(path: &Path, beginning: &[u8]) -> Option<Self> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let named = |names: &[&str]| names.iter().any(|name| extension == *name);
         let text = String::from_utf8_lossy(beginning);
@@ -39,22 +46,24 @@ impl Format {
             .unwrap_or_default()
             .to_lowercase();
         if beginning.starts_with(b"PK") {
-            Self::Archive
+            Some(Self::Archive)
         } else if beginning.starts_with(b"\x93NUMPY") {
-            Self::SingleArray
+            Some(Self::SingleArray)
         } else if beginning.starts_with(b"MATLAB") || named(&["mat"]) {
-            Self::Matlab
+            Some(Self::Matlab)
         } else if first == "-1" {
-            Self::Universal
+            Some(Self::Universal)
         } else if named(&["npz"]) {
-            Self::Archive
+            Some(Self::Archive)
         } else if named(&["csv", "tsv", "txt"])
             || !named(&["uff", "unv", "uf", "bunv"])
                 && (first.starts_with('#') || first.starts_with("freq"))
         {
-            Self::Table
+            Some(Self::Table)
+        } else if named(&["uff", "unv", "uf", "bunv"]) {
+            Some(Self::Universal)
         } else {
-            Self::Universal
+            None
         }
     }
 }
@@ -115,12 +124,14 @@ fn reading(
         .read_to_end(&mut beginning)
         .map_err(failed)?;
     reader.rewind().map_err(failed)?;
-    let reading = match Format::of(path, &beginning) {
-        Format::Universal => read_uff58_of(&mut reader as &mut dyn BufRead, path, length, options),
-        Format::Table => read_csv_from(&mut reader as &mut dyn BufRead, path, options),
-        Format::Archive => read_npz_from(reader, path, options),
-        Format::Matlab => read_mat_from(reader, path, options),
-        Format::SingleArray => Err(FrfError::Arrays {
+    let reading = match Container::told_by(path, &beginning).unwrap_or(Container::Universal) {
+        Container::Universal => {
+            read_uff58_of(&mut reader as &mut dyn BufRead, path, length, options)
+        }
+        Container::Table => read_csv_from(&mut reader as &mut dyn BufRead, path, options),
+        Container::Archive => read_npz_from(reader, path, options),
+        Container::Matlab => read_mat_from(reader, path, options),
+        Container::SingleArray => Err(FrfError::Arrays {
             path: path.to_owned(),
             problem: Box::new(TableProblem::whole(
                 "one NumPy array (.npy)",

@@ -28,6 +28,7 @@ pub use friction::Friction;
 pub use higher::HigherTerms;
 pub use law::LawError;
 pub use law::displacements;
+pub use nearest::nearest;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::JointProblem;
 pub use record::{

@@ -1,7 +1,8 @@
 //! Finds the key that a misspelt one was meant to be.
 
 /// The candidate that is fewest edits away from `word`, if that is less than half of the word.
-pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates
         .iter()
         .map(|candidate| (edits(word, candidate), *candidate))

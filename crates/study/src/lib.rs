@@ -18,6 +18,7 @@
 
 mod check;
 mod error;
+mod kind;
 mod method;
 mod origin;
 mod stated;
@@ -25,6 +26,7 @@ mod tables;
 mod text;
 
 pub use error::StudyError;
+pub use kind::TextKind;
 pub use method::Method;
 pub use origin::{input_file, name_in, provenance};
 pub use stated::{Stated, StatedDeviation};

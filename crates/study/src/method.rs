@@ -27,6 +27,24 @@ pub enum Method {
 }
 
 impl Method {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::FrfDecoupling,
+        Self::FrfSpace,
+        Self::LapUpdate,
+        Self::LapResponse,
+        Self::FractalContact,
+        Self::VirtualMaterial,
+        Self::LayeredBeam,
+        Self::Respond,
+    ];
+
+    /// The method of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
     /// Its name, as a study has it.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use bolted_joint_files::text_file;
+use bolted_joint_joint::nearest;
 
 use super::{Method, StudyError};
 
@@ -67,7 +68,7 @@ impl StudyText {
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
         toml::from_str(&self.text).map_err(|error| StudyError::Syntax {
             path: self.path.clone(),
-            message: error.to_string().trim_end().to_owned(),
+            message: with_suggestion(error.to_string().trim_end()),
         })
     }
 
@@ -91,5 +92,51 @@ impl StudyText {
         expected: impl Display,
     ) -> StudyError {
         StudyError::value(&self.path, key, found, expected)
+    }
+}
+
+/// What serde says of a key that does not belong.
+const UNKNOWN: [&str; 2] = ["unknown field `", "unknown variant `"];
+
+/// A message of the parser's; where a key or a word is not known, with the one that it was meant to be.
+fn with_suggestion(message: &str) -> String {
+    let suggestion = UNKNOWN.iter().find_map(|begin| {
+        let (found, expected) = message.split_once(begin)?.1.split_once('`')?;
+        // every other piece between backquotes is a key
+        let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+        nearest(found, &known)
+    });
+    match suggestion {
+        Some(key) => format!("{message}; did you mean `{key}`?"),
+        None => message.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn a_misspelt_key_gets_the_one_that_was_meant() {
+        let of = |text: &str| {
+            let refused =
+                StudyText::new(text, Path::new("s.toml")).tables::<crate::FrequencyTable>();
+            refused.unwrap_err().to_string()
+        };
+        let refused = of("form = 5");
+        assert!(
+            refused
+                .ends_with("unknown field `form`, expected `from` or `to`; did you mean `from`?"),
+            "{refused}"
+        );
+        assert!(!of("stiffness = 5").contains("did you mean"));
+        let method = StudyText::new("method = \"frf-decopling\"", Path::new("s.toml")).method();
+        let refused = method.unwrap_err().to_string();
+        assert!(
+            refused.ends_with("did you mean `frf-decoupling`?"),
+            "{refused}"
+        );
     }
 }

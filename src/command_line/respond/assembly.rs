@@ -9,10 +9,10 @@ use bolted_joint::respond::AssemblyAnswer;
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
-use super::super::output::{check_output, print, warn, write_file};
+use super::super::output::{check_output, has_extension, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
-use super::picture::{Picture, has_extension};
+use super::picture::Picture;
 
 /// Modes that are told; the table has all.
 const MODES_TOLD: usize = 12;

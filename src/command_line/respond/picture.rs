@@ -1,11 +1,11 @@
 //! The picture beside a response: an SVG, or the same on a page.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use bolted_joint_figures::html;
 
 use super::super::error::CliError;
-use super::super::output::check_output;
+use super::super::output::{check_output, has_extension};
 use super::RespondArguments;
 
 #[derive(Clone, Copy)]
@@ -71,9 +71,4 @@ fn text(kind: Kind, name: &str, svg: String) -> String {
             )
         }
     }
-}
-
-pub(super) fn has_extension(path: &Path, wanted: &str) -> bool {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    extension.is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }

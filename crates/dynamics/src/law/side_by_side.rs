@@ -382,7 +382,8 @@ macro_rules! dof_laws {
             }
 
             /// Whether all that the laws that are there have committed is finite.
-            pub(super) fn is_memory_finite(&self, memory: &DofMemory) -> bool {
+            #[must_use]
+            pub fn is_memory_finite(&self, memory: &DofMemory) -> bool {
                 let mut all = true;
                 $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
                     all &= $law::new(self.of(place)).is_finite(part(memory, place));

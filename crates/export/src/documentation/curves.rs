@@ -8,9 +8,11 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::super::Interface;
+use super::super::fmu::Mode;
 use super::Page;
 use bolted_joint_figures::html::number;
 use bolted_joint_figures::{Line, LineFigure, Scale};
+use bolted_joint_joint::JointFile;
 
 /// Frequencies of a curve, spread evenly over the logarithmic axis, without those about the resonances.
 const SAMPLES: usize = 300;
@@ -62,7 +64,9 @@ impl Axes {
 }
 
 pub(super) fn section(page: &Page<'_>) -> String {
-    let figures = with_dofs!(page.file.joint.dofs.size(), D => sized::<D>(page));
+    let modes = page.lap.map_or(&[][..], |facts| facts.modes.as_slice());
+    let figures =
+        with_dofs!(page.file.joint.dofs.size(), D => sized::<D>(page.file, page.interface, modes));
     let figures: String = figures
         .into_iter()
         .filter_map(|(figure, caption)| {
@@ -80,20 +84,30 @@ pub(super) fn section(page: &Page<'_>) -> String {
     format!("<h2>Behaviour</h2>\n{figures}")
 }
 
+/// What a joint does by itself, with captions in HTML: its dynamic stiffness, and its static load where that is not linear. None
+/// where the joint file does not give the equations, as that of a joint over the preload.
+#[must_use]
+pub fn joint_curves(file: &JointFile) -> Vec<(LineFigure<'static>, String)> {
+    with_dofs!(file.joint.dofs.size(), D => sized::<D>(file, Interface::Element, &[]))
+}
+
 /// Figures with their captions; none where the joint file does not give the equations.
-fn sized<const D: usize>(page: &Page<'_>) -> Vec<(LineFigure<'static>, String)> {
-    let Ok(law) = page.file.joint.law::<D>() else {
+fn sized<const D: usize>(
+    file: &JointFile,
+    interface: Interface,
+    modes: &[Mode],
+) -> Vec<(LineFigure<'static>, String)> {
+    let Ok(law) = file.joint.law::<D>() else {
         return Vec::new();
     };
-    let mut figures = match page.interface {
-        Interface::Lap => page
-            .file
+    let mut figures = match interface {
+        Interface::Lap => file
             .lap::<D>()
-            .map(|lap| receptances(&lap, page))
+            .map(|lap| receptances(&lap, file, modes))
             .unwrap_or_default(),
-        Interface::Element => dynamic_stiffness(&law, page),
+        Interface::Element => dynamic_stiffness(&law, file),
     };
-    let dofs = page.file.joint.dofs.rows().enumerate();
+    let dofs = file.joint.dofs.rows().enumerate();
     figures.extend(dofs.filter_map(|(i, dof)| load_curve(&law, i, dof)));
     figures
 }
@@ -101,12 +115,9 @@ fn sized<const D: usize>(page: &Page<'_>) -> Vec<(LineFigure<'static>, String)> 
 /// |H(ω)| of both bodies by a load on body a, for each DOF.
 fn receptances<const D: usize>(
     lap: &Lap<D>,
-    page: &Page<'_>,
+    file: &JointFile,
+    modes: &[Mode],
 ) -> Vec<(LineFigure<'static>, String)> {
-    let modes = page
-        .lap
-        .map(|facts| facts.modes.as_slice())
-        .unwrap_or_default();
     let (Some(first), Some(last)) = (modes.first(), modes.last()) else {
         return Vec::new();
     };
@@ -122,8 +133,7 @@ fn receptances<const D: usize>(
         .into_iter()
         .map(|frequency| (frequency, impedance(lap, frequency).try_inverse()))
         .collect();
-    page.file
-        .joint
+    file.joint
         .dofs
         .rows()
         .enumerate()
@@ -176,16 +186,14 @@ fn impedance<const D: usize>(lap: &Lap<D>, frequency_hz: f64) -> DMatrix<Complex
 /// |K + jωC| of each DOF, each with the elastic and the viscous part that make it up.
 fn dynamic_stiffness<const D: usize>(
     law: &JointLaw<D>,
-    page: &Page<'_>,
+    file: &JointFile,
 ) -> Vec<(LineFigure<'static>, String)> {
-    let band = page
-        .file
+    let band = file
         .validity
         .as_ref()
         .map_or(BAND_OF_ELEMENT_HZ, |validity| validity.frequency_hz);
     let frequencies = spread(band[0].max(1e-3 * band[1]), band[1]);
-    page.file
-        .joint
+    file.joint
         .dofs
         .rows()
         .enumerate()

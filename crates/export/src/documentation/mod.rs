@@ -19,6 +19,7 @@ use bolted_joint_figures::html::{self, escaped};
 use bolted_joint_joint::{JointFile, OverPreload, Passivity};
 
 pub(super) use assembly::{AssemblyPage, html as assembly_html};
+pub use curves::joint_curves;
 pub(super) use licences::licences;
 
 /// What the page tells.

@@ -1,5 +1,8 @@
 //! Units of a universal file (data set 164), and the factors that take its values to SI.
 
+use std::fmt;
+
+use bolted_joint_files::number;
 use thiserror::Error;
 
 use super::numbers::parse_line;
@@ -8,6 +11,23 @@ use crate::unit_label::Unit;
 
 /// Two statements of a factor agree within this share; labels and factors are often rounded.
 pub(super) const FACTOR_TOLERANCE: f64 = 1e-3;
+
+/// Units of length and force that have a name, with how many make one SI unit.
+const LENGTHS: [(&str, f64); 6] = [
+    ("m", 1.0),
+    ("cm", 1e2),
+    ("mm", 1e3),
+    ("µm", 1e6),
+    ("in", 1.0 / 0.0254),
+    ("ft", 1.0 / 0.3048),
+];
+const FORCES: [(&str, f64); 5] = [
+    ("N", 1.0),
+    ("mN", 1e3),
+    ("kN", 1e-3),
+    ("lbf", 1.0 / 4.448_221_615_260_5),
+    ("kgf", 1.0 / 9.806_65),
+];
 
 /// The units that a file's lengths and forces are in.
 ///
@@ -180,6 +200,22 @@ impl UnitSystem {
 /// Whether two statements of one factor mean the same.
 pub(super) fn agree(first: f64, second: f64) -> bool {
     (first - second).abs() <= FACTOR_TOLERANCE * second.abs()
+}
+
+/// A length and a force by name, or by their factors.
+impl fmt::Display for UnitSystem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let written = |known: &[(&str, f64)], per_si: f64, si_unit: &str| {
+            let mut known = known.iter();
+            match known.find(|(_, factor)| agree(per_si, *factor)) {
+                Some((name, _)) => (*name).to_owned(),
+                None => format!("{} to the {si_unit}", number(per_si, 6)),
+            }
+        };
+        let length = written(&LENGTHS, self.length_per_metre, "metre");
+        let force = written(&FORCES, self.force_per_newton, "newton");
+        write!(f, "{length}, {force}")
+    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::{Assembly, IdentificationReport, counted};
 use bolted_joint_figures::Axis;
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::html::{cell, escaped, number_cell, percent, table};
-use bolted_joint_frf::Dof;
+use bolted_joint_frf::{Dof, receptance_unit};
 
 /// Functions that are drawn at most.
 const MOST_FIGURES: usize = 9;
@@ -154,7 +154,7 @@ pub(crate) fn drawn(function: &Function<'_>) -> String {
         strips: vec![
             strip(
                 "magnitude",
-                unit([response, reference]),
+                receptance_unit(response, reference),
                 MAGNITUDE,
                 Axis::logarithmic(both.map(|value| value.norm()), MAGNITUDE_DECADES),
                 vec![
@@ -191,14 +191,4 @@ pub(crate) fn drawn(function: &Function<'_>) -> String {
         percent(relative_rms)
     );
     figure(&chart, &caption)
-}
-
-/// Unit of a receptance, by whether response and reference are rotations.
-pub(crate) fn unit(between: [Dof; 2]) -> &'static str {
-    match between.map(|dof| dof.direction().is_rotation()) {
-        [false, false] => "m/N",
-        [false, true] => "m/(N·m)",
-        [true, false] => "rad/N",
-        [true, true] => "rad/(N·m)",
-    }
 }

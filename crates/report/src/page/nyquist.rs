@@ -3,13 +3,12 @@
 use num_complex::Complex64;
 
 use super::super::legend::{Key, REGENERATED_COLOUR};
-use super::functions::unit;
 use super::{Assembly, IdentificationReport};
 use bolted_joint_figures::html::{escaped, number};
 use bolted_joint_figures::{
     Axis, FONTS, LABELS_BELOW, PathData, Strip, Svg, VALUE_LABELS, draw_path,
 };
-use bolted_joint_frf::resonances;
+use bolted_joint_frf::{receptance_unit, resonances};
 use bolted_joint_joint::superscript;
 
 /// Side of the square that is drawn, pixels.
@@ -46,7 +45,7 @@ fn figure(assembly: &Assembly<'_>, assembly_number: usize) -> Option<String> {
     let measured: Vec<Complex64> = measured.map(|h| h[fit.place]).collect();
     let name = format!("{} / {}", fit.response, fit.reference);
     let title = format!("{name} around its most prominent resonance, imaginary over real part");
-    let unit = unit([fit.response, fit.reference]);
+    let unit = receptance_unit(fit.response, fit.reference);
     let svg = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
     let [from, to] = [shown.start, shown.end - 1].map(|line| number(frequency_hz[line]));
     Some(format!(

@@ -1,10 +1,11 @@
 //! The strongest functions of the assembly: measured, computed with the joint, and what is left.
 
 use bolted_joint_figures::html::{escaped, percent};
+use bolted_joint_frf::receptance_unit;
 use bolted_joint_spatial::{SpatialIdentification, SpatialStudy};
 
 use crate::page::counted;
-use crate::page::functions::{Function, drawn, unit};
+use crate::page::functions::{Function, drawn};
 use crate::{FrfFigure, FrfPanel};
 
 pub(super) fn section(found: &SpatialIdentification) -> String {
@@ -41,7 +42,7 @@ pub fn spatial_figure(study: &SpatialStudy, found: &SpatialIdentification) -> St
     );
     let panels = found.fits.iter().map(|fit| FrfPanel {
         label: format!("{} / {}", fit.response, fit.reference),
-        unit: unit([fit.response, fit.reference]),
+        unit: receptance_unit(fit.response, fit.reference),
         measured: &fit.measured,
         regenerated: &fit.computed,
         uncoupled: None,

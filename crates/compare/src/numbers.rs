@@ -1,0 +1,221 @@
+//! The numbers of joints, a row each: entries of K and C, at each preload where there are several, terms and laws.
+
+use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS, Term};
+use bolted_joint_joint::{Friction, JointFile, unit};
+
+/// One number of all joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its name, such as `k_yy`; at one of several preloads with the preload, `k_yy@10`.
+    pub name: String,
+    /// Its unit as people write it; `1` for none.
+    pub unit: String,
+    /// Its value in each joint.
+    pub values: Vec<Measured>,
+    /// Of each joint but the first, how far it is from that of the first; `None` where both are zero and known as such.
+    pub differences: Vec<Option<Difference>>,
+}
+
+/// A value with its standard deviation, where the file has one above zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// SI.
+    pub value: f64,
+    /// SI.
+    pub deviation: Option<f64>,
+}
+
+/// How far a value is from the first one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// Part of the first value; `None` where that is zero.
+    pub relative: Option<f64>,
+    /// Standard deviations of the difference, √(σ₁² + σ₂²); `None` unless both files have one.
+    pub deviations: Option<f64>,
+}
+
+impl Row {
+    fn new(name: String, unit: String, values: Vec<Measured>) -> Self {
+        let (first, others) = match values.as_slice() {
+            [first, others @ ..] => (*first, others),
+            [] => (
+                Measured {
+                    value: 0.0,
+                    deviation: None,
+                },
+                &[][..],
+            ),
+        };
+        let difference = |own: &Measured| {
+            let by = own.value - first.value;
+            let sum = first
+                .deviation
+                .zip(own.deviation)
+                .map(|(one, other)| one.hypot(other));
+            (first != *own || first.value != 0.0).then(|| Difference {
+                relative: (first.value != 0.0).then(|| by / first.value.abs()),
+                deviations: sum.map(|sum| by / sum),
+            })
+        };
+        let differences = others.iter().map(difference).collect();
+        Self {
+            name,
+            unit,
+            values,
+            differences,
+        }
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.values
+            .iter()
+            .all(|own| own.value == 0.0 && own.deviation.is_none())
+    }
+}
+
+type Matrix = [Vec<f64>];
+
+/// All rows; those whose numbers are zero everywhere are left out.
+pub(crate) fn rows(files: &[&JointFile]) -> Vec<Row> {
+    let preloads = files
+        .first()
+        .and_then(|file| file.joint.over_preload.as_ref())
+        .map(|table| table.preload.clone());
+    let mut rows = Vec::new();
+    for at in preloads.map_or_else(|| vec![None], |all| (0..all.len()).map(Some).collect()) {
+        matrices(files, at, &mut rows);
+    }
+    terms(files, &mut rows);
+    friction(files, &mut rows);
+    rows.retain(|row| !row.is_nothing());
+    rows
+}
+
+fn matrices(files: &[&JointFile], at: Option<usize>, rows: &mut Vec<Row>) {
+    let Some(first) = files.first() else { return };
+    let dofs = first.joint.dofs;
+    let entry = |matrix: Option<&Matrix>, [i, j]: [usize; 2]| {
+        matrix.and_then(|own| own.get(i)?.get(j).copied())
+    };
+    let kinds: [(&Parameter, Of); 2] = [(STIFFNESS, stiffness), (DAMPING, damping)];
+    for (parameter, of) in kinds {
+        for place in dofs.entries() {
+            let values = files.iter().map(|file| {
+                let [value, deviation] = of(file, at);
+                Measured {
+                    value: entry(value, place).unwrap_or(0.0),
+                    deviation: entry(deviation, place).filter(|own| *own > 0.0),
+                }
+            });
+            let behind = at
+                .and_then(|at| first.joint.over_preload.as_ref()?.preload.get(at))
+                .map_or_else(String::new, |preload| format!("@{preload}"));
+            let [i, j] = place;
+            let name = format!(
+                "{}_{}{}{behind}",
+                parameter.symbol,
+                dofs.row(i).name,
+                dofs.row(j).name
+            );
+            rows.push(Row::new(
+                name,
+                dofs.unit(parameter.unit, place),
+                values.collect(),
+            ));
+        }
+    }
+}
+
+/// A matrix and its deviations, at one of the preloads where there are several.
+type Of = for<'f> fn(&'f JointFile, Option<usize>) -> [Option<&'f Matrix>; 2];
+
+fn stiffness(file: &JointFile, at: Option<usize>) -> [Option<&Matrix>; 2] {
+    let uncertainty = file.uncertainty.as_ref();
+    match at {
+        None => [
+            Some(file.joint.stiffness.as_slice()),
+            uncertainty.map(|own| own.standard_deviation.stiffness.as_slice()),
+        ],
+        Some(at) => [
+            file.joint
+                .over_preload
+                .as_ref()
+                .and_then(|own| own.stiffness.get(at))
+                .map(Vec::as_slice),
+            uncertainty
+                .and_then(|own| own.over_preload.as_ref()?.at.get(at))
+                .map(|own| own.standard_deviation.stiffness.as_slice()),
+        ],
+    }
+}
+
+fn damping(file: &JointFile, at: Option<usize>) -> [Option<&Matrix>; 2] {
+    let uncertainty = file.uncertainty.as_ref();
+    match at {
+        None => [
+            Some(file.joint.damping.as_slice()),
+            uncertainty.map(|own| own.standard_deviation.damping.as_slice()),
+        ],
+        Some(at) => [
+            file.joint
+                .over_preload
+                .as_ref()
+                .and_then(|own| own.damping.get(at))
+                .map(Vec::as_slice),
+            uncertainty
+                .and_then(|own| own.over_preload.as_ref()?.at.get(at))
+                .map(|own| own.standard_deviation.damping.as_slice()),
+        ],
+    }
+}
+
+fn terms(files: &[&JointFile], rows: &mut Vec<Row>) {
+    let Some(first) = files.first() else { return };
+    for term in Term::ALL {
+        for (place, dof) in first.joint.dofs.rows().enumerate() {
+            let values = files.iter().map(|file| Measured {
+                value: file.joint.term(term).get(place).copied().unwrap_or(0.0),
+                deviation: None,
+            });
+            let row = term.row();
+            let name = format!("{}_{}", row.symbol, dof.name);
+            rows.push(Row::new(
+                name,
+                unit(row.unit, dof.kind, dof.kind),
+                values.collect(),
+            ));
+        }
+    }
+}
+
+/// Laws that stand on one DOF several times are compared in the files' order.
+fn friction(files: &[&JointFile], rows: &mut Vec<Row>) {
+    let Some(first) = files.first() else { return };
+    for (place, law) in first.joint.friction.iter().enumerate() {
+        let is_same = |own: &&Friction| own.law == law.law && own.dof == law.dof;
+        let number = first.joint.friction[..place].iter().filter(is_same).count();
+        for (parameter, _) in law.law.parameters.iter().zip(&law.parameters) {
+            let values = files.iter().map(|file| {
+                let own = file.joint.friction.iter().filter(is_same).nth(number);
+                Measured {
+                    value: own.and_then(|own| own.value(parameter)).unwrap_or(0.0),
+                    deviation: None,
+                }
+            });
+            let behind = if number == 0 {
+                String::new()
+            } else {
+                format!(" {}", number + 1)
+            };
+            let name = format!(
+                "{}{behind}.{}_{}",
+                law.law.name, parameter.key, law.dof.name
+            );
+            rows.push(Row::new(
+                name,
+                unit(parameter.unit, law.dof.kind, law.dof.kind),
+                values.collect(),
+            ));
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Why a tool cannot have a joint.
+
+use thiserror::Error;
+
+/// Why a tool cannot have a joint.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ConvertError {
+    /// It depends on the preload.
+    #[error("found a joint over the preload, expected one at one preload: --preload TORQUE")]
+    OverPreload,
+    /// It has laws or terms that the tool has no elements or equations for.
+    #[error(
+        "found {}, which {tool} is not given as {instead}; take the joint of small motion about rest, where sliders stick and terms \
+         of higher order vanish: --at-rest",
+        joined(found)
+    )]
+    NotExpressible {
+        /// What.
+        found: Vec<String>,
+        /// The tool.
+        tool: &'static str,
+        /// What it gets.
+        instead: &'static str,
+    },
+    /// The numbers do not make a law.
+    #[error("{0}")]
+    Law(String),
+}
+
+fn joined(all: &[String]) -> String {
+    all.join(", ")
+}

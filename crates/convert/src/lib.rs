@@ -1,0 +1,240 @@
+//! A joint for other tools: what each can express of it becomes its own elements, with units and signs in comments; what it
+//! cannot is carried by another element, which is said, or refused.
+//!
+//! Programs of finite elements get stiffness and viscous damping between two coincident nodes, in the nodes' axes x, y and z. A
+//! joint in a plane moves along y and turns about z. MATLAB and Modelica also get the laws that can be written as equations.
+#![forbid(unsafe_code)]
+
+mod abaqus;
+mod ansys;
+mod calculix;
+mod error;
+mod head;
+mod linear;
+mod matlab;
+mod modelica;
+mod nastran;
+
+use bolted_joint_joint::JointFile;
+
+pub use ansys::matrix27_pair;
+pub use error::ConvertError;
+use head::Head;
+use linear::Linear;
+
+/// A tool that takes a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Nastran: CBUSH and PBUSH, or DMIG where degrees of freedom are coupled.
+    Nastran,
+    /// Abaqus: springs and dashpots, or a connector where degrees of freedom are coupled.
+    Abaqus,
+    /// CalculiX: springs and dashpots on relative displacements.
+    Calculix,
+    /// ANSYS: COMBIN14, or MATRIX27 where degrees of freedom are coupled.
+    Ansys,
+    /// A function for MATLAB or Octave.
+    Matlab,
+    /// A package in Modelica.
+    Modelica,
+}
+
+impl Target {
+    /// What people call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nastran => "Nastran",
+            Self::Abaqus => "Abaqus",
+            Self::Calculix => "CalculiX",
+            Self::Ansys => "ANSYS",
+            Self::Matlab => "MATLAB",
+            Self::Modelica => "Modelica",
+        }
+    }
+}
+
+/// What the user chooses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Name of the function or package: letters, digits and underscores.
+    pub identifier: String,
+    /// Nodes on sides a and b.
+    pub nodes: [u32; 2],
+    /// Nodes whose displacements are the rotations of sides a and b, in CalculiX.
+    pub rotation_nodes: [u32; 2],
+    /// Numbers from here on are free for elements, properties and auxiliary nodes.
+    pub first_number: u32,
+    /// Take the joint of small motion about rest, where sliders stick.
+    pub at_rest: bool,
+}
+
+/// A joint for a tool.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Converted {
+    /// Contents of the file.
+    pub text: String,
+    /// How it differs from the joint file, and what the user has to do.
+    pub notes: Vec<String>,
+}
+
+/// The joint of a file for a tool; of a joint over the preload, take it at one preload before.
+///
+/// # Errors
+/// [`ConvertError`] where the tool cannot express the joint.
+pub fn convert(
+    file: &JointFile,
+    target: Target,
+    options: &Options,
+) -> Result<Converted, ConvertError> {
+    if file.joint.over_preload.is_some() {
+        return Err(ConvertError::OverPreload);
+    }
+    let head = Head::of(file, target, options);
+    match target {
+        Target::Matlab => matlab::function(file, options, head),
+        Target::Modelica => modelica::package(file, options, head),
+        Target::Nastran => Ok(nastran::deck(
+            &Linear::of(file, target, options)?,
+            options,
+            head,
+        )),
+        Target::Abaqus => Ok(abaqus::deck(
+            &Linear::of(file, target, options)?,
+            options,
+            head,
+        )),
+        Target::Calculix => Ok(calculix::deck(
+            &Linear::of(file, target, options)?,
+            options,
+            head,
+        )),
+        Target::Ansys => Ok(ansys::commands(
+            &Linear::of(file, target, options)?,
+            options,
+            head,
+        )),
+    }
+}
+
+/// A text as an identifier: letters, digits and underscores, a letter first.
+#[must_use]
+pub fn identifier(text: &str) -> String {
+    let own = text
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+    let own: String = own.collect();
+    let own = own.trim_matches('_');
+    match own.chars().next() {
+        Some(first) if first.is_ascii_alphabetic() => own.to_owned(),
+        _ => format!("joint_{own}").trim_end_matches('_').to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    pub(crate) const PLANAR: &str = r#"{"format": "bolted-joint/1", "name": "M10 <½>", "joint": {"dofs": ["y", "theta"],
+        "stiffness": [[5.73e5, 5820], [5820, 1290]], "damping": [[10.83, -0.83], [-0.83, 0.083]]}}"#;
+    const CUBIC: &str = r#"{"format": "bolted-joint/1", "name": "cubic", "joint": {"dofs": ["y"], "stiffness": [[1e6]],
+        "damping": [[2]], "cubic": [1e13]}}"#;
+    const VALANIS: &str = r#"{"format": "bolted-joint/1", "name": "v", "joint": {"dofs": ["y"], "stiffness": [[1e6]],
+        "damping": [[2]], "friction": [{"dof": "y", "law": "jenkins", "stiffness": 1e5, "slip_force": 10},
+        {"dof": "y", "law": "iwan", "slip_force": 4000, "stiffness": 1.5e7, "exponent": -0.3, "ratio": 0.5}]}}"#;
+
+    const ALL: [Target; 6] = [
+        Target::Nastran,
+        Target::Abaqus,
+        Target::Calculix,
+        Target::Ansys,
+        Target::Matlab,
+        Target::Modelica,
+    ];
+
+    pub(crate) fn options(at_rest: bool) -> Options {
+        Options {
+            identifier: "m10".to_owned(),
+            nodes: [1, 2],
+            rotation_nodes: [3, 4],
+            first_number: 100,
+            at_rest,
+        }
+    }
+
+    fn converted(json: &str, target: Target, at_rest: bool) -> Result<Converted, ConvertError> {
+        convert(
+            &JointFile::from_json(json, "j").unwrap(),
+            target,
+            &options(at_rest),
+        )
+    }
+
+    #[test]
+    fn every_tool_gets_units_signs_and_no_strange_letters() {
+        for target in ALL {
+            let text = converted(PLANAR, target, false).unwrap().text;
+            for expected in [
+                "M10 <?>",
+                "N, m, rad, s, kg",
+                "load on side b = K (x_a - x_b)",
+            ] {
+                assert!(text.contains(expected), "{target:?}: {expected}: {text}");
+            }
+            assert!(text.is_ascii(), "{target:?}");
+            assert!(text.ends_with('\n'), "{target:?}");
+        }
+    }
+
+    #[test]
+    fn what_a_tool_cannot_express_is_refused_or_said() {
+        for target in ALL {
+            let has_equations = matches!(target, Target::Matlab | Target::Modelica);
+            assert_eq!(
+                converted(CUBIC, target, false).is_ok(),
+                has_equations,
+                "{target:?}"
+            );
+            let refused = converted(VALANIS, target, false).unwrap_err().to_string();
+            assert!(
+                refused.contains("iwan on y") && refused.contains("--at-rest"),
+                "{refused}"
+            );
+            let at_rest = converted(VALANIS, target, true).unwrap();
+            assert!(
+                at_rest.notes.iter().any(|note| note.contains("iwan on y")),
+                "{target:?}"
+            );
+            // 1e6 + 1e5 of the slider that sticks, and 1.5e7 of the Iwan law at no load
+            assert!(
+                at_rest.text.contains("1.61"),
+                "{target:?}: {}",
+                at_rest.text
+            );
+        }
+        for target in [
+            Target::Nastran,
+            Target::Abaqus,
+            Target::Calculix,
+            Target::Ansys,
+        ] {
+            let notes = converted(PLANAR, target, false).unwrap().notes;
+            assert!(
+                notes.iter().any(|note| note.contains("coupl")),
+                "{target:?}: {notes:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn identifiers_are_made_of_any_text() {
+        for (text, expected) in [
+            ("M10x16 A2-70", "M10x16_A2_70"),
+            ("10 N·m", "joint_10_N_m"),
+            ("½", "joint"),
+            ("a.joint", "a_joint"),
+        ] {
+            assert_eq!(identifier(text), expected);
+        }
+    }
+}

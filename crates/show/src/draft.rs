@@ -1,0 +1,235 @@
+//! A first study from the files of a folder, with a comment at everything that its author has to decide.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use bolted_joint_frf::structure::ModalModel;
+use bolted_joint_frf::{Dof, ReadOptions, read_frfs};
+use thiserror::Error;
+
+use crate::FileKind;
+use crate::shown::some;
+
+/// Points that a comment lists at most.
+const LISTED: usize = 24;
+
+/// A study to begin with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Draft {
+    /// Its text (TOML).
+    pub text: String,
+    /// What its author has to look at.
+    pub notes: Vec<String>,
+}
+
+/// Why there is none.
+#[derive(Debug, Error)]
+pub enum DraftError {
+    /// The folder cannot be read.
+    #[error("{}: cannot be read ({source}); give the folder with the measurements", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+    /// It has too few files.
+    #[error(
+        "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT) or modes of two parts, and functions of their \
+         assembly{refused}",
+        path.display()
+    )]
+    TooFew {
+        /// The folder.
+        path: PathBuf,
+        /// How many there are, in words.
+        found: String,
+        /// Files that look like them but cannot be read, and why.
+        refused: String,
+    },
+}
+
+/// A file that may be a part or the assembly.
+struct Candidate {
+    name: String,
+    is_modal: bool,
+    points: BTreeSet<Dof>,
+    /// Lowest and highest frequency, Hz.
+    band_hz: [f64; 2],
+}
+
+/// A study for the files of a folder: of two parts, and of both together.
+///
+/// Which file is which is told by names: `a`, `b`, and `assembly`, `joined` or `c`; else the one that has to be functions and
+/// comes last by name is the assembly.
+///
+/// # Errors
+/// [`DraftError`] if the folder cannot be read, or has fewer than three such files.
+pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
+    let entries = std::fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+    let entries = entries.map_err(|source| DraftError::Folder {
+        path: folder.to_owned(),
+        source,
+    })?;
+    let mut paths: Vec<PathBuf> = entries.iter().map(std::fs::DirEntry::path).collect();
+    paths.sort();
+    let mut refused = String::new();
+    let mut found = Vec::new();
+    for path in &paths {
+        match candidate(path) {
+            Some(Ok(own)) => found.push(own),
+            Some(Err(why)) => {
+                let _ = write!(refused, "; {why}");
+            }
+            None => {}
+        }
+    }
+    let is_assembly = |own: &Candidate| {
+        let name = own.name.to_lowercase();
+        !own.is_modal
+            && ["assembly", "joined", "bolted", "coupled", "c."]
+                .iter()
+                .any(|word| name.starts_with(word))
+    };
+    let place = found.iter().position(is_assembly);
+    let place = place.or_else(|| found.iter().rposition(|own| !own.is_modal));
+    let (Some(place), true) = (place, found.len() >= 3) else {
+        let names: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
+        return Err(DraftError::TooFew {
+            path: folder.to_owned(),
+            found: match names.as_slice() {
+                [] => "no such file".to_owned(),
+                names => names.join(", "),
+            },
+            refused,
+        });
+    };
+    let assembly = found.remove(place);
+    let [a, b, others @ ..] = found.as_slice() else {
+        return Err(DraftError::TooFew {
+            path: folder.to_owned(),
+            found: assembly.name,
+            refused,
+        });
+    };
+    let mut notes = vec![format!(
+        "part a is taken to be {}, part b {}, the assembly {}",
+        a.name, b.name, assembly.name
+    )];
+    if !others.is_empty() {
+        let names = others.iter().map(|own| own.name.as_str());
+        notes.push(format!(
+            "not used: {}",
+            names.collect::<Vec<_>>().join(", ")
+        ));
+    }
+    notes.push("the points of the joint are guesses: look for CHECK in the study".to_owned());
+    Ok(Draft {
+        text: text(a, b, &assembly),
+        notes,
+    })
+}
+
+/// `None` for a file of another kind.
+fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
+    let name = path.file_name()?.to_str()?.to_owned();
+    match FileKind::of(path) {
+        FileKind::Functions(_) => {
+            let set =
+                read_frfs(path, &ReadOptions::default()).and_then(|reading| reading.into_set());
+            Some(set.map_err(|refused| refused.to_string()).map(|set| {
+                let hz = set.frequency_hz();
+                Candidate {
+                    name,
+                    is_modal: false,
+                    points: set.functions().flat_map(|own| [own.0, own.1]).collect(),
+                    band_hz: [hz[0], hz[hz.len() - 1]],
+                }
+            }))
+        }
+        FileKind::Modes => Some(
+            ModalModel::read(path)
+                .map_err(|refused| refused.to_string())
+                .map(|model| {
+                    let last = model
+                        .modes()
+                        .iter()
+                        .map(|mode| mode.frequency_hz)
+                        .fold(0.0, f64::max);
+                    Candidate {
+                        name,
+                        is_modal: true,
+                        points: model.points().iter().copied().collect(),
+                        band_hz: [0.0, last],
+                    }
+                }),
+        ),
+        _ => None,
+    }
+}
+
+fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
+    let [from, to] = [a, b, assembly]
+        .iter()
+        .fold([0.0, f64::INFINITY], |[from, to]: [f64; 2], own| {
+            [from.max(own.band_hz[0]), to.min(own.band_hz[1])]
+        });
+    let points: Vec<String> = assembly
+        .points
+        .iter()
+        .map(|own| format!("\"{own}\""))
+        .collect();
+    format!(
+        "# A joint between two parts, from functions of each part and of both together.\n\
+         # Keys: docs/file-formats.md. CHECK: what only you can know.\n\
+         method = \"frf-decoupling\"\nname = \"joint of {} and {}\"          # CHECK: what the joint is called\n\n\
+         [a]                                   # the first part\n{}\n[b]                                   # the second part\n{}\n\
+         [assembly]                            # both, bolted together\nfrf = {:?}\n\
+         points = [{}]   # CHECK: points of part b (points_on_a for those of a)\n\n\
+         [joint]\nmodel = \"full\"                        # or \"translation\", \"diagonal\"\n\n\
+         [frequency]                           # Hz; what all three files have\nfrom = {}\nto = {}\n",
+        stem(a),
+        stem(b),
+        part(a),
+        part(b),
+        assembly.name,
+        points.join(", "),
+        toml_float(from),
+        toml_float(to),
+    )
+}
+
+/// The file of a part, and where the joint is on it.
+fn part(own: &Candidate) -> String {
+    let of = |is_rotation: bool| {
+        own.points
+            .iter()
+            .find(|dof| dof.direction().is_rotation() == is_rotation)
+    };
+    let key = if own.is_modal { "modal" } else { "frf" };
+    let turn = of(true).map_or_else(String::new, |dof| format!(", theta = \"{dof}\""));
+    let lever = match of(true) {
+        Some(_) => "",
+        None => {
+            "# CHECK: or theta = { points = [\"…\", \"…\", \"…\"], spacing = 0.015 } of three sensors in a row\n"
+        }
+    };
+    let place = of(false).map_or_else(String::new, Dof::to_string);
+    format!(
+        "{key} = {:?}\njoint = {{ y = \"{place}\"{turn} }}   # CHECK: where the joint is; points: {}\n{lever}",
+        own.name,
+        some(&own.points, LISTED)
+    )
+}
+
+fn stem(own: &Candidate) -> String {
+    let stem = own.name.split('.').next().unwrap_or_default();
+    stem.chars().filter(|c| !['"', '\\'].contains(c)).collect()
+}
+
+/// A number that TOML takes for one with a fraction.
+fn toml_float(value: f64) -> String {
+    format!("{value:?}")
+}

@@ -1,0 +1,46 @@
+//! Why a file cannot be shown.
+
+use std::path::PathBuf;
+
+use bolted_joint_assembly::AssemblyError;
+use bolted_joint_check::CheckError;
+use bolted_joint_frf::FrfError;
+use bolted_joint_frf::structure::StructureError;
+use bolted_joint_joint::JointFileError;
+use bolted_joint_study::StudyError;
+use thiserror::Error;
+
+/// Why a file cannot be shown.
+#[derive(Debug, Error)]
+pub enum ShowError {
+    /// Another kind of file.
+    #[error(
+        "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT), modes, matrices, a study, an assembly, a \
+         joint file or an FMU; check the path",
+        path.display()
+    )]
+    Kind {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: String,
+    },
+    /// Measured functions that cannot be read.
+    #[error(transparent)]
+    Functions(#[from] FrfError),
+    /// Modes or matrices that cannot be read.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// A study that cannot be read.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// An assembly that cannot be read.
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
+    /// A joint file that cannot be read.
+    #[error(transparent)]
+    JointFile(#[from] JointFileError),
+    /// An FMU that cannot be looked into.
+    #[error(transparent)]
+    Fmu(#[from] CheckError),
+}

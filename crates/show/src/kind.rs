@@ -1,0 +1,229 @@
+//! What kind of file a path is: told by how it begins, and by its name where that leaves it open.
+
+use std::fmt;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use bolted_joint_files::text_file;
+use bolted_joint_frf::Container;
+use bolted_joint_study::{Method, StudyText, TextKind};
+use zip::ZipArchive;
+
+/// How much of a file is looked at before more of it is read.
+const LOOKED_AT: u64 = 4096;
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// Measured functions, or what looks like a file of them.
+    Functions(Container),
+    /// Matrices of mass and stiffness of a structure.
+    Matrices,
+    /// Modes of a structure.
+    Modes,
+    /// A study, with its method where it names one that there is.
+    Study(Option<Method>),
+    /// An assembly of structures and joints.
+    Assembly,
+    /// A joint file.
+    JointFile,
+    /// An FMU.
+    Fmu,
+    /// A system of FMUs.
+    Ssp,
+    /// JSON that is no joint file.
+    OtherJson,
+    /// A zip archive that is no FMU and has no arrays.
+    OtherZip,
+    /// A folder.
+    Folder,
+    /// Something else, or nothing that can be read: its reader says what is wrong.
+    Unknown,
+}
+
+impl FileKind {
+    /// What the file at `path` is. Nothing that is wrong with it is an error here.
+    #[must_use]
+    pub fn of(path: &Path) -> Self {
+        if path.is_dir() {
+            return Self::Folder;
+        }
+        let mut beginning = Vec::new();
+        let is_read = File::open(path)
+            .and_then(|file| file.take(LOOKED_AT).read_to_end(&mut beginning))
+            .is_ok();
+        if !is_read || beginning.iter().all(u8::is_ascii_whitespace) {
+            return Self::Unknown;
+        }
+        if beginning.starts_with(b"PK") {
+            return of_zip(path);
+        }
+        let first = beginning.iter().find(|byte| !byte.is_ascii_whitespace());
+        let named = |name: &str| {
+            let extension = path.extension();
+            extension.is_some_and(|extension| extension.eq_ignore_ascii_case(name))
+        };
+        if first == Some(&b'{') || named("json") {
+            return text(path).map_or(Self::Unknown, |text| of_json(&text));
+        }
+        let container = Container::told_by(path, &beginning);
+        // a comment begins tables and TOML alike
+        let is_named_table = ["csv", "tsv", "txt"].iter().any(|name| named(name));
+        if let Some(container) = container
+            && (container != Container::Table || is_named_table)
+        {
+            return Self::Functions(container);
+        }
+        let kind = text(path).and_then(|text| StudyText::new(text, path).kind());
+        match (kind, container) {
+            (Some(TextKind::Study(method)), _) => Self::Study(method),
+            (Some(TextKind::Assembly), _) => Self::Assembly,
+            (Some(TextKind::Modes), _) => Self::Modes,
+            (None, Some(container)) => Self::Functions(container),
+            (None, None) => Self::Unknown,
+        }
+    }
+}
+
+fn text(path: &Path) -> Option<String> {
+    text_file::bytes(path)
+        .ok()
+        .flatten()
+        .and_then(|bytes| String::from_utf8(bytes).ok())
+}
+
+/// A joint file is told by its format or, if it is damaged, by what stands in it.
+fn of_json(text: &str) -> FileKind {
+    let is_joint = match serde_json::from_str::<serde_json::Value>(text) {
+        Ok(value) => {
+            let format = value.get("format").and_then(serde_json::Value::as_str);
+            format.is_some_and(|format| format.starts_with("bolted-joint/"))
+                || value.get("joint").is_some()
+        }
+        Err(_) => text.contains("\"bolted-joint/") || text.contains("\"joint\""),
+    };
+    match is_joint {
+        true => FileKind::JointFile,
+        false if text.trim_start().starts_with('{') => FileKind::OtherJson,
+        false => FileKind::Unknown,
+    }
+}
+
+fn of_zip(path: &Path) -> FileKind {
+    let names: Vec<String> = match File::open(path).map(ZipArchive::new) {
+        Ok(Ok(archive)) => archive
+            .file_names()
+            .filter_map(|name| name.ok())
+            .map(|name| name.into_owned())
+            .collect(),
+        _ => Vec::new(),
+    };
+    let has = |wanted: &[&str]| names.iter().any(|name| wanted.contains(&name.as_str()));
+    let named = |name: &str| {
+        let extension = path.extension();
+        extension.is_some_and(|extension| extension.eq_ignore_ascii_case(name))
+    };
+    if has(&["modelDescription.xml"]) || named("fmu") {
+        FileKind::Fmu
+    } else if has(&["SystemStructure.ssd"]) || named("ssp") {
+        FileKind::Ssp
+    } else if has(&["M.npy", "mass.npy"]) && has(&["K.npy", "stiffness.npy"]) {
+        FileKind::Matrices
+    } else if names.iter().any(|name| name.ends_with(".npy")) || named("npz") {
+        FileKind::Functions(Container::Archive)
+    } else {
+        FileKind::OtherZip
+    }
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Functions(Container::Universal) => f.write_str("a universal file"),
+            Self::Functions(Container::Table) => f.write_str("a table (CSV)"),
+            Self::Functions(Container::Archive) => f.write_str("a NumPy archive (npz)"),
+            Self::Functions(Container::SingleArray) => f.write_str("a NumPy array (npy)"),
+            Self::Functions(Container::Matlab) => f.write_str("a MATLAB file (mat)"),
+            Self::Matrices => f.write_str("matrices of a structure"),
+            Self::Modes => f.write_str("modes of a structure"),
+            Self::Study(Some(method)) => write!(f, "a study of method \"{method}\""),
+            Self::Study(None) => f.write_str("a study"),
+            Self::Assembly => f.write_str("an assembly file"),
+            Self::JointFile => f.write_str("a joint file"),
+            Self::Fmu => f.write_str("an FMU"),
+            Self::Ssp => f.write_str("a system of FMUs (SSP)"),
+            Self::OtherJson => f.write_str("a JSON file"),
+            Self::OtherZip => f.write_str("a zip archive"),
+            Self::Folder => f.write_str("a folder"),
+            Self::Unknown => f.write_str("a file of an unknown kind"),
+        }
+    }
+}
+
+/// The command that takes a file of this kind, as one types it; `None` where no command does.
+#[must_use]
+pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
+    let path = path.display();
+    match kind {
+        FileKind::Study(Some(method)) => {
+            let output = match method {
+                Method::Respond => "NAME.csv",
+                _ => "NAME.joint.json",
+            };
+            Some(format!(
+                "bolted-joint {} {path} -o {output}",
+                method.command()
+            ))
+        }
+        FileKind::Assembly => Some(format!("bolted-joint respond {path} -o NAME.csv")),
+        FileKind::JointFile => Some(format!("bolted-joint export {path} -o NAME.fmu")),
+        FileKind::Fmu => Some(format!("bolted-joint check {path}")),
+        FileKind::Functions(_) | FileKind::Matrices | FileKind::Modes | FileKind::Study(None) => {
+            Some(format!("bolted-joint show {path}"))
+        }
+        FileKind::Ssp
+        | FileKind::OtherJson
+        | FileKind::OtherZip
+        | FileKind::Folder
+        | FileKind::Unknown => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_told_by_what_is_in_them() {
+        let folder = tempfile::tempdir().unwrap();
+        #[rustfmt::skip]
+        let cases: [(&str, &[u8], FileKind); 15] = [
+            ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
+            ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
+            ("a.csv", b"1,2\n", FileKind::Functions(Container::Table)),
+            ("a", b"# quantity = mobility\nfrequency,1\n", FileKind::Functions(Container::Table)),
+            ("a.npy", b"\x93NUMPY\x01", FileKind::Functions(Container::SingleArray)),
+            ("a.dat", b"MATLAB 5.0 MAT-file", FileKind::Functions(Container::Matlab)),
+            ("j.joint.json", b"{\"format\": \"bolted-joint/1\"}", FileKind::JointFile),
+            ("j.txt", b"{\"format\": \"bolted-joint/1\", ", FileKind::JointFile),
+            ("o.json", b"{\"a\": 1}", FileKind::OtherJson),
+            ("c.toml", b"# a study\nmethod = \"respond\"\n", FileKind::Study(Some(Method::Respond))),
+            ("s.toml", b"method = \"respond\"\n", FileKind::Study(Some(Method::Respond))),
+            ("s.json", b"method = 1\n", FileKind::Unknown),
+            ("e.toml", b" \n", FileKind::Unknown),
+            ("z.zip", b"PK\x03\x04", FileKind::OtherZip),
+            ("z.fmu", b"PK\x03\x04", FileKind::Fmu),
+        ];
+        for (name, contents, expected) in cases {
+            let path = folder.path().join(name);
+            std::fs::write(&path, contents).unwrap();
+            assert_eq!(FileKind::of(&path), expected, "{name}");
+        }
+        assert_eq!(FileKind::of(folder.path()), FileKind::Folder);
+        assert_eq!(
+            FileKind::of(&folder.path().join("missing")),
+            FileKind::Unknown
+        );
+    }
+}

@@ -1,0 +1,54 @@
+//! What a file is, and what is in it, in one screen: measured functions, modes, matrices, studies, assemblies, joint files and
+//! FMUs.
+//!
+//! [`FileKind::of`] tells what a path is, for every command: one that gets another kind of file than it takes names the command
+//! that takes it. [`show`] reads the file and tells what is in it, with checks of what was measured, and pictures.
+#![forbid(unsafe_code)]
+
+mod assembly;
+mod draft;
+mod error;
+mod fmu;
+mod functions;
+mod joint;
+mod kind;
+mod matrices;
+mod modes;
+mod quality;
+mod shown;
+mod study;
+
+use std::path::Path;
+
+use bolted_joint_study::StudyText;
+
+pub use draft::{Draft, DraftError, draft};
+pub use error::ShowError;
+pub use kind::{FileKind, command_for};
+pub use quality::{DrivePoint, Reciprocity, drive_points, half_power_lines, reciprocities};
+pub use shown::{Fact, Shown};
+
+/// What is in a file.
+///
+/// # Errors
+/// [`ShowError`] if the file is none of those that are known, or what its reader says of it.
+pub fn show(path: &Path) -> Result<Shown, ShowError> {
+    let kind = FileKind::of(path);
+    let mut shown = match kind {
+        FileKind::Functions(_) | FileKind::Unknown => functions::or_matrices(path)?,
+        FileKind::Matrices => matrices::shown(path)?,
+        FileKind::Modes => modes::shown(path)?,
+        FileKind::Study(_) => study::shown(&StudyText::read(path)?)?,
+        FileKind::Assembly => assembly::shown(&StudyText::read(path)?)?,
+        FileKind::JointFile => joint::shown(path)?,
+        FileKind::Fmu => fmu::shown(path)?,
+        FileKind::Folder | FileKind::Ssp | FileKind::OtherJson | FileKind::OtherZip => {
+            return Err(ShowError::Kind {
+                path: path.to_owned(),
+                found: kind.to_string(),
+            });
+        }
+    };
+    path.clone_into(&mut shown.path);
+    Ok(shown)
+}

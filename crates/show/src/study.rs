@@ -1,0 +1,104 @@
+//! A study: what it asks for, and the files that it names, each with what is in it.
+
+use bolted_joint_study::StudyText;
+use serde_json::json;
+use toml::{Table, Value};
+
+use crate::kind::{FileKind, command_for};
+use crate::{ShowError, Shown};
+
+/// Values that are listed at most.
+const LISTED: usize = 30;
+/// Endings of the names of files that studies name.
+const ENDINGS: [&str; 11] = [
+    "uff", "unv", "uf", "bunv", "csv", "tsv", "txt", "npz", "mat", "toml", "json",
+];
+
+pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
+    let method = text.method()?;
+    let tables: Table = text.tables()?;
+    let mut shown = Shown::of(format!("study of method \"{method}\""));
+    if let Some(name) = tables.get("name").and_then(Value::as_str) {
+        shown.fact("name", name);
+    }
+    let (mut files, mut values) = (Vec::new(), Vec::new());
+    for (key, value) in &tables {
+        if !["method", "name"].contains(&key.as_str()) {
+            walk(key, value, &mut files, &mut values);
+        }
+    }
+    let told = files.iter().map(|(key, name)| {
+        let path = text.resolved(name.as_ref());
+        let what = match path.exists() {
+            false => "is not there".to_owned(),
+            true => FileKind::of(&path).to_string(),
+        };
+        (format!("{key} = {name}: {what}"), path.exists())
+    });
+    let told: Vec<(String, bool)> = told.collect();
+    for (line, _) in told.iter().filter(|own| !own.1) {
+        shown.warnings.push(format!(
+            "{line}; paths in a study are relative to its own folder"
+        ));
+    }
+    shown.facts_of("files", told.iter().map(|own| own.0.clone()));
+    let more = values.len().saturating_sub(LISTED);
+    let more = (more > 0).then(|| format!("and {more} more"));
+    shown.facts_of("says", values.into_iter().take(LISTED).chain(more));
+    shown.detail("method", method.name());
+    shown.detail("command", method.command());
+    let names = files
+        .iter()
+        .map(|(key, name)| json!({ "key": key, "file": name }));
+    shown.detail("files", names.collect::<Vec<_>>());
+    shown.next = command_for(FileKind::Study(Some(method)), text.path());
+    Ok(shown)
+}
+
+/// Takes a value apart: names of files, and lines such as `a.beam.length = 0.3`.
+fn walk(key: &str, value: &Value, files: &mut Vec<(String, String)>, lines: &mut Vec<String>) {
+    match value {
+        Value::Table(table) => {
+            for (own, value) in table {
+                walk(&format!("{key}.{own}"), value, files, lines);
+            }
+        }
+        Value::String(name) if is_file(name) => files.push((key.to_owned(), name.clone())),
+        Value::Array(list)
+            if list
+                .iter()
+                .any(|own| own.is_table() || own.as_str().is_some_and(is_file)) =>
+        {
+            for (place, value) in list.iter().enumerate() {
+                walk(&format!("{key}.{place}"), value, files, lines);
+            }
+        }
+        other => {
+            let text = written(other);
+            let short: String = text.chars().take(80).collect();
+            let dots = if short.len() < text.len() { "…" } else { "" };
+            lines.push(format!("{key} = {short}{dots}"));
+        }
+    }
+}
+
+/// A value as a study has it.
+fn written(value: &Value) -> String {
+    match value {
+        Value::String(text) => format!("{text:?}"),
+        Value::Integer(number) => number.to_string(),
+        Value::Float(number) => number.to_string(),
+        Value::Boolean(is) => is.to_string(),
+        Value::Datetime(when) => when.to_string(),
+        Value::Array(list) => {
+            let list: Vec<String> = list.iter().map(written).collect();
+            format!("[{}]", list.join(", "))
+        }
+        Value::Table(_) => "a table".to_owned(),
+    }
+}
+
+fn is_file(name: &str) -> bool {
+    let ending = name.rsplit_once('.').map(|own| own.1.to_ascii_lowercase());
+    ending.is_some_and(|own| ENDINGS.contains(&own.as_str())) && !name.contains('\n')
+}

@@ -1,0 +1,45 @@
+//! Another kind of file than a command takes: the message names the command that takes it.
+
+use std::path::Path;
+
+use bolted_joint::show::{FileKind, command_for};
+
+use super::error::CliError;
+
+/// Refuses a file that is of a kind which the command does not take; what is of no known kind is left to its reader's message.
+pub(super) fn expect(
+    path: &Path,
+    expected: &'static str,
+    takes: impl Fn(FileKind) -> bool,
+) -> Result<FileKind, CliError> {
+    let kind = FileKind::of(path);
+    if kind == FileKind::Unknown || takes(kind) {
+        return Ok(kind);
+    }
+    let instead = command_for(kind, path);
+    Err(CliError::Kind {
+        path: path.to_owned(),
+        found: kind.to_string(),
+        expected,
+        instead: instead.map_or_else(
+            || "check the path".to_owned(),
+            |command| format!("`{command}` takes it"),
+        ),
+    })
+}
+
+/// A study.
+pub(super) fn expect_study(path: &Path) -> Result<(), CliError> {
+    expect(path, "a study (TOML)", |kind| {
+        matches!(kind, FileKind::Study(_) | FileKind::OtherJson)
+    })
+    .map(|_| ())
+}
+
+/// A joint file.
+pub(super) fn expect_joint_file(path: &Path) -> Result<(), CliError> {
+    expect(path, "a joint file (JSON)", |kind| {
+        matches!(kind, FileKind::JointFile | FileKind::OtherJson)
+    })
+    .map(|_| ())
+}

@@ -125,10 +125,10 @@ mod tests {
                 StudyText::new(text, Path::new("s.toml")).tables::<crate::FrequencyTable>();
             refused.unwrap_err().to_string()
         };
-        let refused = of("form = 5");
+        let refused = of("fromm = 5");
         assert!(
             refused
-                .ends_with("unknown field `form`, expected `from` or `to`; did you mean `from`?"),
+                .ends_with("unknown field `fromm`, expected `from` or `to`; did you mean `from`?"),
             "{refused}"
         );
         assert!(!of("stiffness = 5").contains("did you mean"));

@@ -14,7 +14,7 @@ def beams():
 
 
 def exact(beams, loads, step):
-    """Motion of the tip of the linear assembly under loads that are held over each step, in the modes of the joined beams.
+    """Motion of the tip of the linear assembly under held loads, in the modes of the joined beams.
 
     In the nodes' own coordinates the exponential has eight digits only.
     """

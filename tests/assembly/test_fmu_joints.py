@@ -1,4 +1,4 @@
-"""The FMU of a small assembly with joints that are not linear: beside SciPy, in Model Exchange, saved in motion, differentiated."""
+"""The FMU of a small assembly with joints that are not linear: beside SciPy, saved in motion, differentiated."""
 
 import fmpy
 import numpy as np

@@ -15,7 +15,7 @@ use crate::{bytes, changed, data, export, export_as, options, refusal, text};
 #[test]
 fn the_fmu_has_the_files_of_the_standard() {
     let (fmu, source) = export("m10-aluminium.joint.json", Interface::Element).unwrap();
-    let paths: Vec<&str> = fmu.entries.iter().map(|entry| &*entry.path).collect();
+    let paths: Vec<&str> = fmu.entries().iter().map(|entry| &*entry.path).collect();
     let (library, others) = paths.split_last().unwrap();
     assert_eq!(
         others,
@@ -43,9 +43,9 @@ fn the_fmu_has_the_files_of_the_standard() {
             "documentation/diagram.svg",
         ]
     );
-    assert_eq!(fmu.libraries.len(), 1);
-    assert_eq!(fmu.libraries[0].source, LibrarySource::Embedded);
-    let folder = format!("binaries/{}/bolted_joint.", fmu.libraries[0].platform);
+    assert_eq!(fmu.libraries().len(), 1);
+    assert_eq!(fmu.libraries()[0].source, LibrarySource::Embedded);
+    let folder = format!("binaries/{}/bolted_joint.", fmu.libraries()[0].platform);
     assert!(library.starts_with(&folder), "{library}");
     assert_eq!(text(&fmu, "resources/joint.json").unwrap(), source);
 
@@ -53,7 +53,7 @@ fn the_fmu_has_the_files_of_the_standard() {
     for i in 0..archive.len() {
         let file = archive.by_index(i).unwrap();
         assert_eq!(file.name().unwrap(), paths[i]);
-        assert_eq!(file.size(), fmu.entries[i].size as u64);
+        assert_eq!(file.size(), fmu.entries()[i].size as u64);
         let extra = file.extra_data().unwrap_or_default();
         assert!(extra.is_empty(), "{}", paths[i]);
         let is_library = paths[i] == *library;
@@ -132,7 +132,7 @@ fn libraries_of_other_platforms_go_into_the_same_fmu() {
     let fmu = fmu_bytes(&file, "", &options).unwrap();
     let library = text(&fmu, "binaries/x86_64-windows/bolted_joint.dll").unwrap();
     assert_eq!(library, "MZ not a real one");
-    let libraries = fmu.libraries.iter();
+    let libraries = fmu.libraries().iter();
     let platforms: Vec<&str> = libraries.map(|library| &*library.platform).collect();
     assert!(platforms.contains(&"x86_64-windows"));
     assert!(platforms.len() == 2 || cfg!(all(windows, target_arch = "x86_64")));

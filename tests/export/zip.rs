@@ -77,7 +77,7 @@ fn programs_of_the_nineties_can_unpack_it() -> Result<(), Failure> {
             ("pirdayr-ex03.joint.json", Interface::Lap),
         ] {
             let (fmu, _) = export_as(name, interface, version)?;
-            let paths: Vec<&str> = fmu.entries.iter().map(|entry| &*entry.path).collect();
+            let paths: Vec<&str> = fmu.entries().iter().map(|entry| &*entry.path).collect();
             check(fmu.bytes(), &paths);
         }
     }

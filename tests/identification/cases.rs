@@ -85,6 +85,7 @@ impl Pair {
             relative_variance: None,
             repeats: None,
             floors: Default::default(),
+            apart: None,
         }
     }
 }
@@ -124,6 +125,7 @@ pub(crate) fn bolted(
         relative_variance: None,
         repeats: None,
         floors: Default::default(),
+        apart: None,
     }
 }
 

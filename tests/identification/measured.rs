@@ -190,6 +190,7 @@ impl Rig {
             relative_variance: None,
             repeats: None,
             floors: Default::default(),
+            apart: None,
         };
         let with = |assembly| Lines {
             assembly,

@@ -274,16 +274,16 @@ pub(super) fn first_levels(noise: &Noise) -> Levels {
     })
 }
 
-/// Where the cost with these weights is lowest, roughly, and whether the iteration came to rest there.
+/// Where the cost with these weights is lowest, roughly.
 pub(super) fn minimum(
     objective: &Objective<'_>,
     weights: &[Weights],
     start: &DVector<f64>,
-) -> Option<(State, bool)> {
+) -> Option<State> {
     let state = objective.at(weights, start.clone(), None)?;
     let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
     let rest = levenberg_marquardt(objective, weights, &Free, start, state, control);
-    Some((rest.state, rest.settled))
+    Some(rest.state)
 }
 
 /// Where an iteration with held weights came to rest.

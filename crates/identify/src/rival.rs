@@ -50,7 +50,7 @@ impl Problem<'_> {
         let whole = whole.objective(&entries);
         let robust = robust(&exact, &whole, self.noise, start);
         let robust = robust.map_or_else(|| start.clone(), |robust| robust.unknowns);
-        let other_unknowns = minimum(&exact, &weights, &robust)?.0.unknowns;
+        let other_unknowns = minimum(&exact, &weights, &robust)?.unknowns;
         let excess = 2.0
             * (cost(other, &weights, other_unknowns)?
                 - cost(own, &weights, found.unknowns.clone())?);

@@ -29,16 +29,12 @@ pub(super) fn robust(
     let mut rest = None;
     for _ in 0..ROUNDS {
         let weights = whole.marginal_weights(first, &unknowns)?;
-        let (state, has_settled) = minimum(exact, &weights, &unknowns)?;
+        let state = minimum(exact, &weights, &unknowns)?;
         let moved = relative_change(&unknowns, &state.unknowns, &state.normal.scale());
         unknowns.clone_from(&state.unknowns);
         rest = Some((state, weights));
         if moved < SETTLED {
             converged = true;
-            break;
-        }
-        if !has_settled {
-            // It wanders, and renewed weights would not lead it back.
             break;
         }
     }

@@ -12,10 +12,11 @@ use bolted_joint::export::{
     fmu_bytes,
 };
 use bolted_joint::joint::JointFile;
+use bolted_joint::show::FileKind;
 
 use super::error::CliError;
 use super::invocation::platforms;
-use super::kind::expect_joint_file;
+use super::kind::expect;
 use super::output::{check_output, is_standard_output, message, print, write_file};
 use super::table::number;
 
@@ -93,11 +94,17 @@ impl From<InterfaceArgument> for Interface {
 }
 
 pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
-    let is_toml = |path: &Path| {
-        let extension = path.extension();
-        extension.is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
-    };
-    if is_toml(&arguments.joint_file) {
+    let kind = expect(
+        &arguments.joint_file,
+        "a joint file (JSON) or an assembly file (TOML)",
+        |kind| {
+            matches!(
+                kind,
+                FileKind::JointFile | FileKind::OtherJson | FileKind::Assembly
+            )
+        },
+    )?;
+    if kind == FileKind::Assembly {
         return assembly::run(arguments);
     }
     let interface = arguments.interface.unwrap_or(InterfaceArgument::Element);
@@ -112,7 +119,6 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         ..options(interface.into())?
     };
     check_output(&arguments.output, &[&arguments.joint_file])?;
-    expect_joint_file(&arguments.joint_file)?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for reason in &exported.reasons_against {
         message(&format!("warning: not to be relied on: {reason}"));

@@ -290,7 +290,7 @@ fn a_command_that_gets_another_kind_of_file_names_the_right_one() {
         ("check beams.toml", "found an assembly file"),
         ("check .", "found a folder"),
         ("export study.toml -o o.fmu", "found a study of method"),
-        ("export j.fmu -o o.fmu", "found an FMU, expected a joint file (JSON); `bolted-joint check j.fmu` takes it"),
+        ("export j.fmu -o o.fmu", "found an FMU, expected a joint file (JSON) or an assembly file (TOML); `bolted-joint check j.fmu` takes it"),
         ("identify layers.toml -o o.joint.json", "`bolted-joint predict` takes this study"),
         ("identify loops.toml -o o.joint.json", "`bolted-joint respond` takes this study"),
         ("identify beams.toml -o o.joint.json", "found an assembly file, expected a study (TOML); `bolted-joint respond beams.toml -o NAME.csv` takes it"),

@@ -154,8 +154,11 @@ pub fn estimate(
         contradicted[number] = Some(pull);
         let mut wider = priors.clone();
         wider[number].standard_deviation *= WIDER;
-        let start = Start::without_causes(&found.point.unknowns);
-        let Some(next) = best(&Task::new(experiment, &wider), &start, settings) else {
+        let near = Start::without_causes(&found.point.unknowns);
+        let task = Task::new(experiment, &wider);
+        // where the joint with the narrow prior leads nowhere, the search begins anew
+        let next = best(&task, &near, settings).or_else(|| best_of_many(&task, start, settings));
+        let Some(next) = next else {
             break;
         };
         (priors, found) = (wider, next);

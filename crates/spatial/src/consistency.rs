@@ -40,7 +40,7 @@ impl SpatialStudy {
     /// agree with anything and are left out.
     ///
     /// # Errors
-    /// [`SpatialError::VirtualPoint`] for functions that cannot be used.
+    /// [`SpatialError::Interface`] for functions that cannot be used.
     pub fn consistency(&self) -> Result<Vec<SideConsistency>, SpatialError> {
         let mut all = Vec::new();
         for (name, side) in ["a", "b"].into_iter().zip(&self.problem.sides) {

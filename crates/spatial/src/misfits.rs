@@ -48,7 +48,7 @@ impl SpatialStudy {
     /// kind and side at most, as more would hide each other. Fewer than eight channels or impacts cannot be judged.
     ///
     /// # Errors
-    /// [`SpatialError::VirtualPoint`] for functions that cannot be used.
+    /// [`SpatialError::Interface`] for functions that cannot be used.
     pub fn misfits(&self) -> Result<Vec<Misfit>, SpatialError> {
         let Problem {
             sides, tolerances, ..

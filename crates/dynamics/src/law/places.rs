@@ -163,7 +163,8 @@ pub const FORGETFUL_PARAMETER_COUNT: usize = {
     count
 };
 
-/// What the laws on each DOF declare of their parameters, each with its law, in the order of [`DofLaws::parameters`].
+/// What the laws on each DOF declare of their parameters, each with its law, in the order of
+/// [`DofLaws::parameters`](super::DofLaws::parameters).
 pub fn dof_parameters() -> impl Iterator<Item = (&'static Declaration, &'static Parameter)> {
     let laws = DECLARATIONS.iter().skip(1);
     laws.flat_map(|law| law.parameters.iter().map(move |parameter| (law, parameter)))

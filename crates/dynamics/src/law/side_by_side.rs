@@ -18,7 +18,7 @@ const FAR_AWAY: f64 = 1e300;
 /// Part of its place by which rounding may put a corner before the joint that has just come to it.
 const ROUNDING: f64 = 1e-10;
 
-/// The laws on one relative DOF, by their parameters in the order of [`DECLARATIONS`].
+/// The laws on one relative DOF, by their parameters in the order of [`DECLARATIONS`](super::DECLARATIONS).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DofLaws<N = f64> {
     parameters: [N; DOF_PARAMETER_COUNT],
@@ -33,7 +33,7 @@ impl<N: Number> DofLaws<N> {
         present: 0,
     };
 
-    /// The laws with these parameters, in the order of [`DECLARATIONS`].
+    /// The laws with these parameters, in the order of [`DECLARATIONS`](super::DECLARATIONS).
     #[inline]
     #[must_use]
     pub fn new(parameters: [N; DOF_PARAMETER_COUNT]) -> Self {
@@ -61,7 +61,7 @@ impl<N: Number> DofLaws<N> {
         self.own(&ALL).map(Place::law)
     }
 
-    /// Their parameters, in the order of [`DECLARATIONS`].
+    /// Their parameters, in the order of [`DECLARATIONS`](super::DECLARATIONS).
     #[inline]
     #[must_use]
     pub const fn parameters(&self) -> &[N; DOF_PARAMETER_COUNT] {

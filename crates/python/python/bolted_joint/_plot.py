@@ -37,14 +37,19 @@ def functions(sets: "Mapping[str, Functions]", most: int = MOST) -> "Figure":
         2, 1, sharex=True, height_ratios=(3, 1), figsize=(8, 5), layout="constrained"
     )
     for number, (label, one) in enumerate(sets.items()):
-        style: dict[str, Any] = {"marker": ".", "ms": 3, "ls": ""} if len(sets) > 1 and number == 0 else {"lw": 1}
+        is_compared = len(sets) > 1
+        style: dict[str, Any] = {"lw": 1}
+        if is_compared and number == 0:
+            style = {"marker": ".", "ms": 4, "ls": "", "alpha": 0.4}
         for color, (response, reference) in enumerate(pairs):
             if response not in one.responses or reference not in one.references:
                 continue
             values = one[response, reference]
             name = " ".join(filter(None, (f"{response}/{reference}", label)))
-            above.semilogy(one.frequency_hz, np.abs(values), color=f"C{color}", label=name, **style)
-            below.plot(one.frequency_hz, np.angle(values, deg=True), color=f"C{color}", **style)
+            # lines over dots of the same colour would not be seen
+            shade = "black" if is_compared and number > 0 else f"C{color}"
+            above.semilogy(one.frequency_hz, np.abs(values), color=shade, label=name, **style)
+            below.plot(one.frequency_hz, np.angle(values, deg=True), color=shade, **style)
     above.set_ylabel(f"{first.quantity}, SI")
     above.legend(fontsize="small")
     below.set_ylabel("phase, °")

@@ -1,6 +1,5 @@
 """The Python module as the wheel has it, and what the command line writes on built-in data."""
 
-import pathlib
 import subprocess
 import sys
 
@@ -28,6 +27,3 @@ def short(demo):
     )
     study["joint"]["rivals"] = False
     return study
-
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]

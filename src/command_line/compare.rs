@@ -13,7 +13,7 @@ use bolted_joint::report::{comparison_figure, comparison_page};
 
 use super::error::CliError;
 use super::kind::expect_joint_file;
-use super::output::{check_output, has_extension, message, print, warn, write_file};
+use super::output::{check_plot, has_extension, message, print, warn, write_file};
 use super::table::{Table, number};
 
 /// `compare`
@@ -37,16 +37,7 @@ pub(super) struct CompareArguments {
 const NOTABLE: f64 = 1.96;
 
 pub(super) fn run(arguments: &CompareArguments) -> Result<(), CliError> {
-    if let Some(path) = &arguments.plot {
-        if !["html", "svg"]
-            .iter()
-            .any(|ending| has_extension(path, ending))
-        {
-            let expected = "a name that ends in .html or .svg";
-            return Err(CliError::option("--plot", path.display(), expected));
-        }
-        check_output(path, &arguments.joint_files.iter().collect::<Vec<_>>())?;
-    }
+    check_plot(arguments.plot.as_ref(), &arguments.joint_files)?;
     let mut joints = Vec::new();
     for path in &arguments.joint_files {
         expect_joint_file(path)?;

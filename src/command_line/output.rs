@@ -111,6 +111,19 @@ pub(super) fn check_outputs<'a>(
     Ok(taken)
 }
 
+/// Refuses a `--plot` that is no page and no picture, cannot be written or would replace one of the files that are read.
+pub(super) fn check_plot(plot: Option<&PathBuf>, read: &[PathBuf]) -> Result<(), CliError> {
+    let Some(path) = plot else { return Ok(()) };
+    if !["html", "svg"]
+        .iter()
+        .any(|ending| has_extension(path, ending))
+    {
+        let expected = "a name that ends in .html or .svg";
+        return Err(CliError::option("--plot", path.display(), expected));
+    }
+    check_output(path, &read.iter().collect::<Vec<_>>())
+}
+
 /// Whether a path has this ending, in capitals or not; a table (CSV) may go to standard output.
 pub(super) fn has_extension(path: &Path, wanted: &str) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str());

@@ -11,7 +11,7 @@ use bolted_joint::report::{ShownFile, shown_page, shown_svg};
 use bolted_joint::show::{Shown, show};
 
 use super::error::CliError;
-use super::output::{check_output, has_extension, print, warn, write_file};
+use super::output::{check_plot, has_extension, print, warn, write_file};
 
 /// `show`
 #[derive(Debug, Args)]
@@ -31,16 +31,7 @@ pub(super) struct ShowArguments {
 const LABEL: usize = 14;
 
 pub(super) fn run(arguments: &ShowArguments) -> Result<(), CliError> {
-    if let Some(path) = &arguments.plot {
-        if !["html", "svg"]
-            .iter()
-            .any(|ending| has_extension(path, ending))
-        {
-            let expected = "a name that ends in .html or .svg";
-            return Err(CliError::option("--plot", path.display(), expected));
-        }
-        check_output(path, &arguments.files.iter().collect::<Vec<_>>())?;
-    }
+    check_plot(arguments.plot.as_ref(), &arguments.files)?;
     let all = arguments.files.iter().map(|path| Ok(show(path)?));
     let mut all: Vec<Shown> = all.collect::<Result<_, CliError>>()?;
     if let Some(path) = &arguments.plot {

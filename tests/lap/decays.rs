@@ -2,12 +2,15 @@
 
 use std::fmt::Write as _;
 
+use bolted_joint_testing::{close, has};
+
 use bolted_joint::identify::lap::{
     LapResponse, LapResponseStudy, ResponseUnknown, SliderParameter,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
+use tempfile::TempDir;
 
 /// M = m/2 of the relative motion, kg.
 const MASS: f64 = 1.0;
@@ -24,6 +27,16 @@ const EXACT: f64 = 2e-3;
 /// leave 5 % of it open and 1.6 % of the intervals that hold.
 const DEVIATIONS: std::ops::Range<f64> = 0.8..1.2;
 const HELD: std::ops::RangeInclusive<f64> = 0.92..=0.98;
+
+/// Part of the first record's amplitude that the second, which is left out, is released at.
+const LEFT_OUT: f64 = 0.7;
+/// Part of the frequencies and damping ratios of a record left out that lie in their intervals. Those of one record share the
+/// errors of the unknowns.
+const PREDICTED: std::ops::RangeInclusive<f64> = 0.92..=0.98;
+/// Part of the durations that do: one for each draw, so that 60 leave 2.8 % of it open.
+const LASTING: std::ops::RangeInclusive<f64> = 0.88..=1.0;
+/// Part of the draws in which a run left out may be said not to be of the law, though it is.
+const WARNED: f64 = 0.05;
 
 /// Sliders: stiffness (N/m) and the displacement at which each slips (m).
 type Sliders = Vec<[f64; 2]>;
@@ -45,12 +58,12 @@ fn iwan(density: f64, exponent: f64, span: f64) -> Sliders {
     (0..count).map(cell).collect()
 }
 
-/// Displacements of a release at `LARGEST_M`, where the sliders have come straight from rest.
-fn decay(sliders: &Sliders) -> Vec<f64> {
+/// Displacements after a release, to which the sliders have come straight from rest.
+fn decay(sliders: &Sliders, released_m: f64) -> Vec<f64> {
     let steps = 20;
     let h = INTERVAL_S / f64::from(steps);
     let spring = K0 - sliders.iter().map(|[stiffness, _]| stiffness).sum::<f64>();
-    let (mut u, mut v) = (LARGEST_M, 0.0);
+    let (mut u, mut v) = (released_m, 0.0);
     let mut stuck: Vec<f64> = sliders.iter().map(|[_, slips]| u.min(*slips)).collect();
     let load = |u: f64, stuck: &[f64]| {
         let of_sliders = sliders.iter().zip(stuck);
@@ -78,32 +91,87 @@ fn decay(sliders: &Sliders) -> Vec<f64> {
     found
 }
 
-fn identified(samples: &[f64], name: &str, (seed, noise): (u64, f64)) -> LapResponse {
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    let mut csv = "time_s,displacement_m\n".to_owned();
-    for (n, u) in samples.iter().enumerate() {
-        let normal: f64 = StandardNormal.sample(&mut generator);
-        let measured = u + noise * LARGEST_M * normal;
-        writeln!(csv, "{:e},{measured:e}", INTERVAL_S * n as f64).unwrap();
+/// Of the first record of each draw, and of the second, which is left out.
+struct Records {
+    fitted: Vec<f64>,
+    left_out: Vec<f64>,
+}
+
+impl Records {
+    /// Released at these parts of the largest amplitude.
+    fn of(sliders: &Sliders, released: [f64; 2]) -> Self {
+        let [fitted, left_out] = released.map(|part| decay(sliders, part * LARGEST_M));
+        Self { fitted, left_out }
     }
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("decay.csv"), csv).unwrap();
-    let study = format!(
-        "method = \"lap-response\"\nname = \"x\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n\
-         terms = [\"{name}\"]\ncompare = false\n[known]\nm = {}\n[[decay]]\nfile = \"decay.csv\"\n",
-        2.0 * MASS
-    );
-    let path = folder.path().join("study.toml");
-    std::fs::write(&path, study).unwrap();
-    let study = LapResponseStudy::read(&path).unwrap_or_else(|error| panic!("{error}"));
-    LapResponse::of(&study, &|| {}).unwrap()
+
+    /// A study of these, in its folder, with noise of its own; `terms` are as a study has them.
+    fn study(&self, terms: &str, (seed, noise): (u64, f64)) -> (TempDir, LapResponseStudy) {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let folder = tempfile::tempdir().unwrap();
+        for (name, samples) in [("fitted", &self.fitted), ("left-out", &self.left_out)] {
+            let mut csv = "time_s,displacement_m\n".to_owned();
+            for (n, u) in samples.iter().enumerate() {
+                let normal: f64 = StandardNormal.sample(&mut generator);
+                let measured = u + noise * LARGEST_M * normal;
+                writeln!(csv, "{:e},{measured:e}", INTERVAL_S * n as f64).unwrap();
+            }
+            std::fs::write(folder.path().join(format!("{name}.csv")), csv).unwrap();
+        }
+        let study = format!(
+            "method = \"lap-response\"\nname = \"x\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n\
+             terms = [{terms}]\ncompare = false\n[known]\nm = {}\n[[decay]]\nfile = \"fitted.csv\"\n\
+             [[decay]]\nfile = \"left-out.csv\"\nuse = \"predict\"\n",
+            2.0 * MASS
+        );
+        let path = folder.path().join("study.toml");
+        std::fs::write(&path, study).unwrap();
+        let study = LapResponseStudy::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        (folder, study)
+    }
+}
+
+fn identified(study: &LapResponseStudy) -> LapResponse {
+    LapResponse::of(study, &|| {}).unwrap()
+}
+
+/// How many numbers of runs left out were expected, and how many of them lie where.
+#[derive(Default)]
+struct Told {
+    numbers: [usize; 2],
+    durations: [usize; 2],
+    warned: usize,
+}
+
+impl Told {
+    fn count(&mut self, study: &LapResponseStudy, found: &LapResponse) {
+        let run = found.backbones.iter().find(|run| run.left_out).unwrap();
+        let (all, outside) = run.outside();
+        assert_eq!(all, 2 * run.points.len());
+        self.numbers[0] += all;
+        self.numbers[1] += all - outside;
+        let fall = run.fall.as_ref().unwrap();
+        self.durations[0] += 1;
+        self.durations[1] += usize::from(fall.duration_s.holds().unwrap());
+        let is_of_run = |text: &String| text.starts_with(&run.run) && text.contains("outside of");
+        self.warned += usize::from(found.warnings(study).iter().any(is_of_run));
+    }
 }
 
 /// Without noise the numbers are there; with it their errors are what is said of them.
 #[track_caller]
 fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)], draws: u64) {
-    let samples = decay(sliders);
-    let exact = identified(&samples, name, (0, 0.0));
+    let records = Records::of(sliders, [1.0, LEFT_OUT]);
+    let terms = format!("\"{name}\"");
+    let (_folder, study) = records.study(&terms, (0, 0.0));
+    let exact = identified(&study);
+    // the model's own decay takes as long as that of the sliders
+    for run in &exact.backbones {
+        let lasts = run.fall.as_ref().unwrap().duration_s;
+        assert!(
+            (lasts.predicted / lasts.measured - 1.0).abs() < 1e-4,
+            "{lasts:?}"
+        );
+    }
     for (unknown, expected) in truth {
         let found = exact.fit.values.of(*unknown);
         let symbol = unknown.symbol();
@@ -113,9 +181,12 @@ fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)],
         );
     }
     let (mut squares, mut held) = (0.0, 0.0);
+    let mut told = Told::default();
     let share = ((draws as usize * truth.len()) as f64).recip();
     for seed in 0..draws {
-        let found = identified(&samples, name, (seed, NOISE));
+        let (_folder, study) = records.study(&terms, (seed, NOISE));
+        let found = identified(&study);
+        told.count(&study, &found);
         let reduced = found.fit.reduced_chi_squared();
         assert!((0.2..3.0).contains(&reduced), "{name}: {reduced}");
         for (unknown, expected) in truth {
@@ -131,6 +202,19 @@ fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)],
     println!("{name}: {deviations:.3} deviations, intervals hold {held:.3}");
     assert!(DEVIATIONS.contains(&deviations), "{name}: {deviations}");
     assert!(HELD.contains(&held), "{name}: {held}");
+    let [numbers, durations] =
+        [told.numbers, told.durations].map(|[all, held]| held as f64 / all as f64);
+    println!(
+        "{name}, left out: intervals hold {numbers:.3} of {} numbers, {durations:.3} of {draws} durations; {} warnings",
+        told.numbers[0], told.warned
+    );
+    assert!(PREDICTED.contains(&numbers), "{name}: {numbers}");
+    assert!(LASTING.contains(&durations), "{name}: {durations}");
+    assert!(
+        told.warned as f64 <= WARNED * draws as f64,
+        "{}",
+        told.warned
+    );
 }
 
 fn slider(parameter: SliderParameter) -> ResponseUnknown {
@@ -159,4 +243,52 @@ fn many_sliders_are_known_from_a_decay_as_well_as_it_is_said() {
         (slider(SliderParameter::Exponent), exponent),
     ];
     assert_known(&iwan(density, exponent, 2e-3), "micro-slip", &truth, 120);
+}
+
+/// A slider that sticks while it is fitted is a spring. A record in which it slips is not where that expects it, though nothing
+/// was wrong with the fit.
+#[test]
+fn a_decay_beyond_what_was_fitted_is_not_where_it_is_expected() {
+    let records = Records::of(&vec![[8e3, 1e-4]], [0.33, 1.0]);
+    let (_folder, study) = records.study("", (1, 0.2 * NOISE));
+    let found = identified(&study);
+    assert!((0.3..1.5).contains(&found.fit.reduced_chi_squared()));
+    let run = found.backbones.iter().find(|run| run.left_out).unwrap();
+    let (all, outside) = run.outside();
+    assert!(4 * outside > all, "{outside} of {all}");
+    let lasts = &run.fall.as_ref().unwrap().duration_s;
+    assert_eq!(lasts.holds(), Some(false), "{lasts:?}");
+    has(
+        &found.warnings(&study).join("\n"),
+        &["left-out", "outside of what is expected", "were fitted"],
+    );
+}
+
+/// The residual of a wrong law is said, and is in the file, with the noise of the record for which it is too large.
+#[test]
+fn a_law_that_is_wrong_for_a_decay_is_said() {
+    let records = Records::of(&iwan(1e7, -0.4, 2e-3), [1.0, LEFT_OUT]);
+    let (_folder, study) = records.study("\"k3\", \"c2\"", (1, NOISE));
+    let found = identified(&study);
+    has(
+        &found.warnings(&study).join("\n"),
+        &[
+            "what the noise of the decays' records explains",
+            "no cure for a wrong law",
+        ],
+    );
+    let file = found.joint_file(&study);
+    let (uncertainty, residual) = (file.uncertainty.unwrap(), file.residual.unwrap());
+    has(&uncertainty.basis, &["no cure for a wrong law"]);
+    let reduced = residual.reduced_chi_squared.unwrap();
+    close(uncertainty.inflation.unwrap().powi(2), reduced, 1e-12);
+    let functions = residual.functions.iter();
+    let names: Vec<&str> = functions.map(|own| own.response.as_str()).collect();
+    assert_eq!(names, ["fitted, frequency", "fitted, damping ratio"]);
+    assert!(residual.lines == all_lines(&found) && residual.relative_rms > 0.0);
+}
+
+fn all_lines(found: &LapResponse) -> usize {
+    let fitted = found.backbones.iter().filter(|run| !run.left_out);
+    fitted.map(|run| 2 * run.points.len()).sum()
 }

@@ -13,6 +13,7 @@ mod oscillator;
 mod passive;
 mod published_backbone;
 mod refusals;
+mod residual;
 mod responses;
 mod slipping;
 mod updating;

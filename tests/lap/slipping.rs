@@ -13,21 +13,21 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
-const MASS: f64 = 2.0;
-const K0: f64 = 5.0e5;
-const C12: f64 = 2.0;
+pub(crate) const MASS: f64 = 2.0;
+pub(crate) const K0: f64 = 5.0e5;
+pub(crate) const C12: f64 = 2.0;
 const LARGEST_M: f64 = 3.0e-4;
-const FREQUENCY: f64 = 1e-4;
-const DAMPING: f64 = 0.01;
+pub(crate) const FREQUENCY: f64 = 1e-4;
+pub(crate) const DAMPING: f64 = 0.01;
 /// Of a complex response.
 const RESPONSE: f64 = 0.01;
 const DRAWS: u64 = 120;
 
 /// F(u) of a first motion to u ≥ 0.
-type FirstLoading = dyn Fn(f64) -> f64;
+pub(crate) type FirstLoading = dyn Fn(f64) -> f64;
 
 /// Segalman's law by its density R φ^χ of sliders up to φ_max and S there.
-fn iwan(density: f64, exponent: f64, span: f64, last: f64) -> impl Fn(f64) -> f64 {
+pub(crate) fn iwan(density: f64, exponent: f64, span: f64, last: f64) -> impl Fn(f64) -> f64 {
     move |u: f64| {
         let v = u.min(span);
         // ∫ρ min(u, φ) dφ
@@ -54,7 +54,7 @@ fn equivalent(first_loading: &FirstLoading, amplitude: f64) -> [f64; 2] {
 }
 
 /// Amplitude, frequency (Hz) and damping ratio of each point; `small` is the law's stiffness of small motion.
-fn backbone(first_loading: &FirstLoading, small: f64) -> Vec<[f64; 3]> {
+pub(crate) fn backbone(first_loading: &FirstLoading, small: f64) -> Vec<[f64; 3]> {
     let point = |n: u32| {
         let amplitude = LARGEST_M * (f64::from(n) / 40.0).powi(2);
         let [stiffness, loss] = equivalent(first_loading, amplitude);
@@ -70,7 +70,7 @@ fn backbone(first_loading: &FirstLoading, small: f64) -> Vec<[f64; 3]> {
 }
 
 /// What was measured, without its noise.
-enum Measured {
+pub(crate) enum Measured {
     /// Amplitude (m), frequency (Hz) and damping ratio of each point.
     Backbone(Vec<[f64; 3]>),
     /// Frequency (Hz), force (N), and the complex response to it (m), level by level.
@@ -135,10 +135,15 @@ fn sines(first_loading: &FirstLoading, small: f64) -> Measured {
     Measured::Sines((1..=8).map(level).collect())
 }
 
-/// The joint identified from what was measured, with noise of its own.
-fn identified(measured: &Measured, terms: &str, seed: u64) -> (LapResponse, JointFile) {
+/// A study of what was measured, in its folder, with noise of its own; `told` may change what is said of it.
+pub(crate) fn study_of(
+    measured: &Measured,
+    terms: &str,
+    seed: u64,
+    told: impl Fn(String) -> String,
+) -> (tempfile::TempDir, LapResponseStudy) {
     let folder = tempfile::tempdir().unwrap();
-    let tables = measured.written(folder.path(), seed);
+    let tables = told(measured.written(folder.path(), seed));
     let study = format!(
         "method = \"lap-response\"\nname = \"slips\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n{terms}\n\
          harmonics = 1\n[known]\nm = {MASS}\n{tables}"
@@ -146,10 +151,20 @@ fn identified(measured: &Measured, terms: &str, seed: u64) -> (LapResponse, Join
     let path = folder.path().join("study.toml");
     std::fs::write(&path, study).unwrap();
     let study = LapResponseStudy::read(&path).unwrap_or_else(|error| panic!("{error}"));
-    let found = LapResponse::of(&study, &|| {}).unwrap();
-    let file = found.joint_file(&study);
+    (folder, study)
+}
+
+pub(crate) fn identified_of(study: &LapResponseStudy) -> (LapResponse, JointFile) {
+    let found = LapResponse::of(study, &|| {}).unwrap();
+    let file = found.joint_file(study);
     assert!(file.validate().is_empty(), "{:?}", file.validate());
     (found, file)
+}
+
+/// The joint identified from what was measured, with noise of its own.
+fn identified(measured: &Measured, terms: &str, seed: u64) -> (LapResponse, JointFile) {
+    let (_folder, study) = study_of(measured, terms, seed, |tables| tables);
+    identified_of(&study)
 }
 
 /// Root of the mean square error in standard deviations, and the part of intervals that hold the truth.

@@ -389,7 +389,7 @@ pub struct Residual {
     /// The same for each function compared.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub functions: Vec<FunctionResidual>,
-    /// χ² over degrees of freedom, where the noise was stated or coherence told it: about 1 if the model fits.
+    /// χ² over degrees of freedom, where the noise was stated, or coherence or records told it: about 1 if the model fits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(range(min = 0)))]
     pub reduced_chi_squared: Option<f64>,

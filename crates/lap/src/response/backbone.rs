@@ -69,6 +69,8 @@ pub struct BackboneLine {
     pub damping_ratio: Option<f64>,
     /// Force that holds the amplitude, N, where it was measured.
     pub force_n: Option<f64>,
+    /// When a decay had it, s.
+    pub time_s: Option<f64>,
 }
 
 impl BackboneLine {
@@ -252,6 +254,7 @@ pub(super) fn read_backbone(path: &Path, share: f64) -> Result<Vec<BackboneLine>
             force_n: force
                 .map(|(place, _)| positive(place, "force"))
                 .transpose()?,
+            time_s: None,
         });
     }
     if lines.is_empty() {

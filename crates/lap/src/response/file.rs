@@ -7,8 +7,10 @@ use nalgebra::DVector;
 
 use super::data::Use;
 use super::model::{ResponseUnknown, Values};
+use super::prediction::Expected;
 use super::result::LapResponse;
-use super::study::LapResponseStudy;
+use super::study::{LapResponseStudy, NoiseIs};
+use super::warnings::NO_CURE;
 use bolted_joint_joint::{
     Bodies, Body, Correlation, DofSet, Format, FreeEstimate, Friction, FunctionResidual,
     HigherTerms, Intervals, Joint, JointFile, NoiseRecord, Residual, StandardDeviation,
@@ -98,9 +100,18 @@ impl LapResponse {
             true => 1.0,
             false => (self.covariance[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0),
         };
-        let noise = match study.noise.is_stated {
-            true => "the stated noise",
-            false => "the noise that the residual shows",
+        let noise = match study.noise_is() {
+            NoiseIs::Stated => "the stated noise",
+            NoiseIs::OfRecords => "the noise of the records",
+            NoiseIs::Nominal => "the noise that the residual shows",
+        };
+        let raised = match study.knows_noise() && self.inflation > 1.0 {
+            true => format!(", raised {:.2} times by the residual", self.inflation),
+            false => String::new(),
+        };
+        let no_cure = match self.is_far_from_noise(study) {
+            true => format!("; {NO_CURE}"),
+            false => String::new(),
         };
         let others = self.estimates.iter().map(|estimate| {
             format!(
@@ -117,7 +128,7 @@ impl LapResponse {
                 damping: entry(ResponseUnknown::JointDamping),
             },
             basis: format!(
-                "information matrix of the maximum-likelihood estimate with {noise}, raised by the residual; {}",
+                "information matrix of the maximum-likelihood estimate with {noise}{raised}{no_cure}; {}",
                 others.collect::<Vec<_>>().join(", ")
             ),
             correlation: Some(Correlation {
@@ -134,7 +145,7 @@ impl LapResponse {
                 stiffness: vec![vec![ends]],
                 damping: interval(ResponseUnknown::JointDamping),
             }),
-            inflation: (study.noise.is_stated && self.inflation > 1.0).then_some(self.inflation),
+            inflation: (study.knows_noise() && self.inflation > 1.0).then_some(self.inflation),
             not_identified: self
                 .not_identified()
                 .into_iter()
@@ -169,7 +180,9 @@ impl LapResponse {
     }
 
     fn residual(&self, study: &LapResponseStudy) -> Residual {
-        let runs = self.run_residuals(study);
+        let mut runs = self.run_residuals(study);
+        let of_sines = runs.len();
+        runs.extend(self.curve_residuals());
         let lines: usize = runs.iter().map(|(_, lines, _)| lines).sum();
         let squares: f64 = runs
             .iter()
@@ -186,22 +199,49 @@ impl LapResponse {
             lines,
             functions: runs
                 .into_iter()
-                .map(|(name, _, relative_rms)| FunctionResidual {
+                .enumerate()
+                .map(|(place, (name, _, relative_rms))| FunctionResidual {
                     response: name,
-                    reference: "force".to_owned(),
+                    reference: match place < of_sines {
+                        true => "force".to_owned(),
+                        false => "amplitude".to_owned(),
+                    },
                     relative_rms,
                 })
                 .collect(),
-            reduced_chi_squared: study.noise.is_stated.then_some(reduced),
+            reduced_chi_squared: study.knows_noise().then_some(reduced),
             line_correlation: None,
             outliers: Vec::new(),
             lines_left_out: None,
-            noise: Some(NoiseRecord {
+            // that of receptances
+            noise: (of_sines > 0).then(|| NoiseRecord {
                 relative: study.noise.response.hypot(study.noise.force) * level,
                 floor: 0.0,
                 stated: study.noise.is_stated,
             }),
         }
+    }
+
+    /// The same of frequencies and damping ratios over the amplitude, of each curve in the estimate.
+    fn curve_residuals(&self) -> Vec<(String, usize, f64)> {
+        let runs = self.backbones.iter().filter(|run| !run.left_out);
+        let both = runs.flat_map(|run| {
+            let relative = |own: &Expected| own.measured / own.predicted - 1.0;
+            let points = run.points.iter();
+            let frequencies = points.clone().map(|point| relative(&point.frequency_hz));
+            let ratios = points.filter_map(|point| Some(relative(point.damping_ratio.as_ref()?)));
+            let kinds: [(&str, Vec<f64>); 2] = [
+                ("frequency", frequencies.collect()),
+                ("damping ratio", ratios.collect()),
+            ];
+            kinds.map(|(kind, errors)| {
+                let squares: f64 = errors.iter().map(|error| error * error).sum();
+                let count = errors.len();
+                let rms = (squares / count.max(1) as f64).sqrt();
+                (format!("{}, {kind}", run.run), count, rms)
+            })
+        });
+        both.filter(|(_, count, _)| *count > 0).collect()
     }
 
     /// Name, lines and relative residual of the receptance at the fitted amplitudes, of each run in the estimate.

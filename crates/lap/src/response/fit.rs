@@ -2,18 +2,22 @@
 //! line, so that what is left is as small as the model.
 
 mod amplitude;
+mod data;
+mod found;
 
 use nalgebra::{DMatrix, DVector};
 
 use self::amplitude::{LONGEST, dot, settled, unit};
-use super::backbone::{BackboneLine, BackboneRun};
-use super::data::SineLine;
+use self::data::Start;
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{LineResidual, Model, Values};
 use super::passive::{Bound, Limit, Passive};
 use super::step::damped_step;
 use super::study::Noise;
 use crate::error::LapError;
+
+pub(super) use self::data::Data;
+pub use self::found::{AtLimit, Fit};
 
 const STEPS: usize = 200;
 /// Steps of a first look.
@@ -25,137 +29,6 @@ const MOST_DAMPING: f64 = 1e12;
 /// How often the largest displacement, which the limits go up to, follows the fit, and when it has come to rest.
 const FOLLOWED: usize = 6;
 const FOLLOWS: f64 = 1e-9;
-
-/// A fitted model.
-#[derive(Clone, Debug)]
-pub struct Fit {
-    /// The values.
-    pub values: Values,
-    /// The relative amplitude of each line, m.
-    pub amplitudes_m: Vec<f64>,
-    /// χ²: sum of the squared residuals in standard deviations.
-    pub chi_squared: f64,
-    /// Data less unknowns: two for each line, less the model's.
-    pub degrees_of_freedom: usize,
-    /// Information matrix of the unknowns in the order of the model's.
-    pub information: DMatrix<f64>,
-    /// Largest amplitude of the relative motion that was fitted, m: a passive joint takes energy up to there.
-    pub amplitude_m: f64,
-    /// Limits that the estimate stands at because the joint has to be passive.
-    pub at_limits: Vec<AtLimit>,
-    /// By how much a further step within the limits would lower χ²: nothing where the conditions of Karush, Kuhn and Tucker hold.
-    pub left: f64,
-}
-
-impl Fit {
-    /// χ² per degree of freedom.
-    #[must_use]
-    pub fn reduced_chi_squared(&self) -> f64 {
-        self.chi_squared / self.degrees_of_freedom.max(1) as f64
-    }
-
-    /// Whether a limit of nothing else but this unknown holds the estimate.
-    pub(super) fn is_held(&self, place: usize) -> bool {
-        self.at_limits.iter().any(|at| {
-            let mut others = at.gradient.clone();
-            others[place] = 0.0;
-            at.gradient[place] != 0.0 && others.norm_squared() == 0.0
-        })
-    }
-
-    /// A covariance of the unknowns without the directions that the limits take away: Σ − ΣAᵀ(AΣAᵀ)⁻¹AΣ.
-    pub(super) fn within_limits(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut left = covariance.clone();
-        // one limit after the other
-        for at in &self.at_limits {
-            let along = &left * &at.gradient;
-            let variance = at.gradient.dot(&along);
-            if variance > 0.0 {
-                left.ger(-variance.recip(), &along, &along, 1.0);
-            }
-        }
-        left
-    }
-}
-
-/// A limit that an estimate stands at.
-#[derive(Clone, Debug)]
-pub struct AtLimit {
-    /// Which.
-    pub limit: Limit,
-    /// By how much χ² falls with what is limited, in the reciprocal of its unit; not negative.
-    pub multiplier: f64,
-    /// What is limited, by the unknowns.
-    pub(super) gradient: DVector<f64>,
-}
-
-/// What a model is fitted to.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Data<'a> {
-    pub(super) lines: &'a [SineLine],
-    pub(super) backbones: &'a [&'a BackboneRun],
-}
-
-impl<'a> Data<'a> {
-    /// Numbers beyond the amplitudes.
-    fn count(&self) -> usize {
-        2 * self.lines.len() + self.points().map(BackboneLine::count).sum::<usize>()
-    }
-
-    /// Points of all backbones and decays.
-    pub(super) fn points(&self) -> impl Iterator<Item = &'a BackboneLine> + use<'a> {
-        self.backbones.iter().flat_map(|run| &run.lines)
-    }
-}
-
-/// Where a fit starts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Start<'a> {
-    values: &'a Values,
-    /// The relative amplitude of each line, m, where an earlier fit to the same lines found them.
-    amplitudes_m: Option<&'a [f64]>,
-}
-
-impl<'a> From<&'a Values> for Start<'a> {
-    fn from(values: &'a Values) -> Self {
-        Self {
-            values,
-            amplitudes_m: None,
-        }
-    }
-}
-
-/// A fit goes on with the amplitudes that it has: a line may have two of them, of which another guess could be the worse one.
-impl<'a> From<&'a Fit> for Start<'a> {
-    fn from(fit: &'a Fit) -> Self {
-        Self {
-            values: &fit.values,
-            amplitudes_m: Some(&fit.amplitudes_m),
-        }
-    }
-}
-
-impl Start<'_> {
-    /// The relative amplitude of each line, m.
-    fn amplitudes_m(&self, model: &Model, data: Data<'_>) -> Vec<f64> {
-        match self.amplitudes_m {
-            Some(found) if found.len() == data.lines.len() => found.to_vec(),
-            _ => {
-                let lines = data.lines.iter();
-                lines
-                    .map(|line| model.relative_amplitude(self.values, line))
-                    .collect()
-            }
-        }
-    }
-
-    /// Largest displacement that it makes of the data, m.
-    fn largest_m(&self, model: &Model, data: Data<'_>) -> f64 {
-        let of_points = data.points().map(|line| line.amplitude_m);
-        let of_lines = self.amplitudes_m(model, data).into_iter();
-        of_lines.chain(of_points).fold(f64::MIN_POSITIVE, f64::max)
-    }
-}
 
 /// Whether an estimate may be active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -385,12 +258,7 @@ fn moved(
     step: &DVector<f64>,
     passive: Option<&Passive<'_>>,
 ) -> State {
-    let mut values = state.values;
-    for (unknown, change) in model.unknowns.iter().zip(step.iter()) {
-        if let Some(place) = values.place(*unknown) {
-            *place += change;
-        }
-    }
+    let mut values = model.moved(&state.values, step);
     if let Some(passive) = passive {
         values = passive.within(values);
     }

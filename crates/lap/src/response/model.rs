@@ -195,6 +195,17 @@ impl Model {
         DVector::from_iterator(self.unknowns.len(), change)
     }
 
+    /// The values with the unknowns changed by so much, as they are searched.
+    pub(super) fn moved(&self, values: &Values, change: &DVector<f64>) -> Values {
+        let mut moved = *values;
+        for (unknown, change) in self.unknowns.iter().zip(change.iter()) {
+            if let Some(place) = moved.place(*unknown) {
+                *place += change;
+            }
+        }
+        moved
+    }
+
     /// Half the difference of the loads on a and b, and their sum, at a unit force.
     fn loads(&self) -> (f64, f64) {
         match self.drive {

@@ -1,16 +1,19 @@
 //! Phase resonance of a run, measured and predicted at the force that was measured there.
 
+mod curve;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use bolted_joint_statistics::student_975;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
 
-use super::backbone::BackboneRun;
 use super::data::{SineRun, Use, wrapped};
-use super::dynamic_stiffness::RelativeMotion;
 use super::fit::Fit;
 use super::model::{Model, Values};
+
+pub(super) use self::curve::Spread;
+pub use self::curve::{BackbonePrediction, Expected, Fall, PointPrediction};
 
 const ITERATIONS: usize = 100;
 /// Step of the numerical derivatives and relative accuracy of the result.
@@ -152,10 +155,7 @@ fn gradients(
     let none = DVector::zeros(directions.ncols());
     let mut by_unknown = [none.clone(), none];
     for (place, direction) in directions.column_iter().enumerate() {
-        let mut moved = *values;
-        for (unknown, change) in model.unknowns.iter().zip(direction.iter()) {
-            *moved.place(*unknown)? += PART * change;
-        }
+        let moved = model.moved(values, &(PART * direction));
         let found = predicted_resonance(model, &moved, measured)?;
         by_unknown[0][place] = (found.frequency_hz - predicted.frequency_hz) / PART;
         by_unknown[1][place] = (found.displacement_m / predicted.displacement_m).ln() / PART;
@@ -236,43 +236,6 @@ fn expect(all: &mut [Prediction]) {
             ],
             displacement_m: [at.displacement_m / factor, at.displacement_m * factor],
         });
-    }
-}
-
-/// How far a backbone or a free decay is from the model's.
-#[derive(Clone, Debug, Serialize)]
-pub struct BackbonePrediction {
-    /// The run.
-    pub run: String,
-    /// Whether the run was left out of the estimate.
-    pub left_out: bool,
-    /// Root of the mean square error of the frequencies, Hz.
-    pub frequency_error_hz: f64,
-    /// Root of the mean square relative error of the damping ratios, where they were measured.
-    pub damping_error: Option<f64>,
-}
-
-impl BackbonePrediction {
-    pub(super) fn of(values: &Values, run: &BackboneRun) -> Self {
-        let motion = RelativeMotion::fundamental(values);
-        let (mut squares, mut of_damping) = (0.0, Vec::new());
-        for line in &run.lines {
-            let z = motion.stiffness(line.amplitude_m, line.omega).value;
-            // ω² = K/M, ζ = C/(2Mω), M = m/2
-            let mass = 0.5 * values.mass;
-            let omega = ((z.re + mass * line.omega * line.omega) / mass).sqrt();
-            squares += ((omega - line.omega) / TAU).powi(2);
-            let ratio = z.im / (2.0 * mass * line.omega * line.omega);
-            of_damping.extend(line.damping_ratio.map(|own| (own / ratio - 1.0).powi(2)));
-        }
-        let mean = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
-        let damping_error = mean(of_damping.iter().sum(), of_damping.len());
-        Self {
-            run: run.name.clone(),
-            left_out: run.used_for == Use::Predict,
-            frequency_error_hz: mean(squares, run.lines.len()),
-            damping_error: (!of_damping.is_empty()).then_some(damping_error),
-        }
     }
 }
 

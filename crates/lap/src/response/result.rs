@@ -8,10 +8,9 @@ use serde::Serialize;
 use super::super::input;
 use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
-use super::decay::corrected;
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
-use super::prediction::{BackbonePrediction, Prediction};
+use super::prediction::{BackbonePrediction, Prediction, Spread};
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
 use crate::error::LapError;
@@ -132,9 +131,15 @@ impl LapResponse {
             true => Vec::new(),
             false => Prediction::of_all(&model, &fit, &study.sines, &searched(&fit)),
         };
-        let backbones = study.backbones.iter();
-        let of_backbones = backbones
-            .map(|run| BackbonePrediction::of(&fit.values, &corrected(&model, &fit.values, run)));
+        let spread = Spread {
+            covariance: &searched(&fit),
+            noise: &study.noise,
+            factor,
+            quantile,
+        };
+        let of_backbones = study.backbones.iter();
+        let of_backbones =
+            of_backbones.map(|run| BackbonePrediction::of(&model, &fit, run, &spread));
         let of_backbones = of_backbones.collect();
         let role = |used: Use, what: &str| match used {
             Use::Fit => what.to_owned(),

@@ -1,5 +1,6 @@
 //! What the reader of a lap model identified from responses should know before using it.
 
+use super::prediction::BackbonePrediction;
 use super::result::LapResponse;
 use super::study::{LapResponseStudy, NoiseIs};
 
@@ -16,6 +17,11 @@ const CHANCE: f64 = 25.0;
 /// Errors of the resonance of a run left out that are worth a word: frequency in Hz, relative amplitude.
 const FREQUENCY_HZ: f64 = 0.1;
 const AMPLITUDE: f64 = 0.1;
+/// Part of the numbers of a run left out that may lie outside of intervals of 95 %: those of neighbouring points go together.
+const OUTSIDE: f64 = 0.25;
+/// What wider intervals do not do.
+pub(super) const NO_CURE: &str = "wider intervals are no cure for a wrong law: they hold only if the residual is noise; look at \
+                                  what the model leaves out";
 
 impl LapResponse {
     /// The warnings.
@@ -78,8 +84,40 @@ impl LapResponse {
                     100.0 * AMPLITUDE
                 ));
             }
+            let (all, outside) = row.outside();
+            if outside as f64 > OUTSIDE * all as f64 {
+                warnings.push(format!(
+                    "{}, which was left out, has {outside} of {all} frequencies and damping ratios outside of what is expected with 95 %: \
+                     the law is not that of this run{}",
+                    row.run,
+                    self.beyond(row)
+                ));
+            }
         }
         warnings
+    }
+
+    /// Which amplitudes of a run lie beyond those that were fitted.
+    fn beyond(&self, run: &BackbonePrediction) -> String {
+        let ends = |runs: &mut dyn Iterator<Item = f64>| {
+            runs.fold([f64::INFINITY, 0.0_f64], |[low, high], amplitude_m| {
+                [low.min(amplitude_m), high.max(amplitude_m)]
+            })
+        };
+        let of_points = |run: &BackbonePrediction| {
+            let points = run.points.iter().map(|point| point.amplitude_m);
+            points.collect::<Vec<f64>>()
+        };
+        let fitted = self.backbones.iter().filter(|run| !run.left_out);
+        let of_sines = self.fit.amplitudes_m.iter().copied();
+        let [from, to] = ends(&mut fitted.flat_map(of_points).chain(of_sines));
+        let [least, largest] = ends(&mut of_points(run).into_iter());
+        match least < from || largest > to {
+            true => format!(
+                ", which goes from {least:.2e} to {largest:.2e} m where {from:.2e} to {to:.2e} m were fitted"
+            ),
+            false => String::new(),
+        }
     }
 
     /// What it costs that the joint is passive.
@@ -108,31 +146,46 @@ impl LapResponse {
         ))
     }
 
-    /// Whether the residual is what the noise should leave; a joint that has to be passive may leave more.
+    /// χ² per degree of freedom of the estimate that need not be passive: a joint that has to be may leave more.
+    fn free_chi_squared(&self) -> f64 {
+        let free = self.free.as_ref().unwrap_or(&self.fit);
+        free.reduced_chi_squared()
+    }
+
+    /// Whether the residual is so much more than the noise that the law is in doubt.
+    pub(super) fn is_far_from_noise(&self, study: &LapResponseStudy) -> bool {
+        self.free_chi_squared()
+            > match study.knows_noise() {
+                true => TOO_LARGE,
+                false => FAR_TOO_LARGE,
+            }
+    }
+
+    /// Whether the residual is what the noise should leave.
     fn of_residual(&self, study: &LapResponseStudy) -> Option<String> {
-        let reduced = self
-            .free
-            .as_ref()
-            .unwrap_or(&self.fit)
-            .reduced_chi_squared();
-        let times = reduced.sqrt();
+        let reduced = self.free_chi_squared();
+        let is_far = self.is_far_from_noise(study);
+        let (times, percent) = (reduced.sqrt(), 100.0 / reduced);
+        let raised = |explained: &str, advice: &str| {
+            format!(
+                "the residual is {times:.1} times {explained}: χ² per degree of freedom {reduced:.3}, of which noise explains {percent:.0} %; \
+                 all intervals were made {times:.1} times as wide, but {NO_CURE}{advice}"
+            )
+        };
         match study.noise_is() {
-            NoiseIs::Stated if reduced > TOO_LARGE => Some(format!(
-                "the residual is more than the stated noise: χ² per degree of freedom {reduced:.3}; all standard deviations were raised"
-            )),
+            NoiseIs::Stated if is_far => {
+                Some(raised("the stated noise", ", and at the stated noise"))
+            }
             NoiseIs::Stated if reduced < TOO_SMALL => Some(format!(
                 "the residual is much less than the stated noise: χ² per degree of freedom {reduced:.3}; the standard deviations are \
                  those of the stated noise"
             )),
-            NoiseIs::OfRecords if reduced > TOO_LARGE => Some(format!(
-                "the residual is {times:.1} times what the noise of the decays' records explains: χ² per degree of freedom \
-                 {reduced:.3}; all standard deviations were raised, but they hold only if the residual is noise: look at what the model \
-                 leaves out"
-            )),
-            NoiseIs::Nominal if reduced > FAR_TOO_LARGE => Some(format!(
-                "the residual is {times:.1} times the noise that is taken where none is stated: χ² per degree of freedom {reduced:.3}; \
-                 all standard deviations were raised, but they hold only if the residual is noise: state [noise], or look at the \
-                 residual for what the model leaves out"
+            NoiseIs::OfRecords if is_far => {
+                Some(raised("what the noise of the decays' records explains", ""))
+            }
+            NoiseIs::Nominal if is_far => Some(raised(
+                "the noise that is taken where none is stated",
+                ", or state [noise]",
             )),
             _ => None,
         }

@@ -1,5 +1,6 @@
 //! Reports of identified lap models.
 
+mod curves;
 mod response;
 mod update;
 

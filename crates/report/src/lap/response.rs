@@ -34,6 +34,7 @@ impl LapResponseReport<'_> {
             super::warnings(self.warnings),
             self.parameters(),
             self.resonances(),
+            super::curves::section(self.found),
             self.models(),
             self.runs(),
             format!(
@@ -247,6 +248,9 @@ impl LapResponseReport<'_> {
     }
 
     fn runs(&self) -> String {
+        if self.study.sines.is_empty() {
+            return String::new();
+        }
         let residuals = self.found.run_residuals(self.study);
         let runs = self.study.sines.iter().enumerate().map(|(place, run)| {
             let residual = residuals
@@ -300,8 +304,12 @@ fn run_figure(found: &LapResponse, run: &SineRun) -> Option<String> {
     .to_svg()
 }
 
-/// Receptances regenerated of up to four runs, of the lowest to the highest level.
+/// Receptances regenerated of up to four runs, of the lowest to the highest level; without such runs frequencies over the
+/// amplitude.
 pub fn level_figure(study: &LapResponseStudy, found: &LapResponse) -> Option<String> {
+    if study.sines.is_empty() {
+        return super::curves::frequencies(&found.backbones);
+    }
     let mut runs: Vec<&SineRun> = study.sines.iter().collect();
     runs.sort_by(|a, b| a.amplitude_m().total_cmp(&b.amplitude_m()));
     let stride = runs.len().div_ceil(4).max(1);

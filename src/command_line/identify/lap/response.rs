@@ -200,19 +200,53 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
         text += &table.render();
     }
     if !found.backbones.is_empty() {
-        text += "\nbackbones and decays beside the model, root mean square\n";
-        let mut table = Table::new(&["run", "", "frequency, Hz", "damping ratio"]);
-        for row in &found.backbones {
-            let of_damping = row.damping_error;
-            table.row(vec![
-                row.run.clone(),
-                if row.left_out { "left out" } else { "fitted" }.to_owned(),
-                number(row.frequency_error_hz, 2),
-                of_damping.map_or_else(String::new, |error| format!("{:.1} %", 100.0 * error)),
-            ]);
-        }
-        text += &table.render();
+        text += &beside_backbones(found);
     }
     text.push('\n');
     text
+}
+
+/// Backbones and decays beside the model.
+fn beside_backbones(found: &LapResponse) -> String {
+    let mut table = Table::new(&[
+        "run",
+        "",
+        "frequency, Hz",
+        "damping ratio",
+        "within 95 %",
+        "falls in, s",
+        "model",
+        "expected, 95 %",
+    ]);
+    for row in &found.backbones {
+        let (all, outside) = row.outside();
+        let within = match all {
+            0 => String::new(),
+            _ => format!("{} of {all}", all - outside),
+        };
+        let mut cells = vec![
+            row.run.clone(),
+            if row.left_out { "left out" } else { "fitted" }.to_owned(),
+            number(row.frequency_error_hz, 2),
+            row.damping_error
+                .map_or_else(String::new, |error| format!("{:.1} %", 100.0 * error)),
+            within,
+        ];
+        if let Some(fall) = &row.fall {
+            let own = fall.duration_s;
+            let expected = own.interval_95.map(|ends| ends.map(|end| number(end, 4)));
+            cells.extend([
+                number(own.measured, 4),
+                number(own.predicted, 4),
+                expected.map_or_else(String::new, |[low, high]| format!("{low} … {high}")),
+            ]);
+        } else {
+            cells.extend(["", "", ""].map(str::to_owned));
+        }
+        table.row(cells);
+    }
+    format!(
+        "\nbackbones and decays beside the model, root mean square\n{}",
+        table.render()
+    )
 }

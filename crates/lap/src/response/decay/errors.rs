@@ -20,7 +20,9 @@ pub(in crate::response) struct ReadingErrors {
     pub(super) between: DMatrix<f64>,
     /// Errors beside those of the noise, as parts of frequencies and damping ratios.
     pub(super) beside: [f64; 2],
-    /// L⁻¹ of the Cholesky factor of all: frequencies, then damping ratios.
+    /// Variances of all: frequencies, then damping ratios.
+    variances: DVector<f64>,
+    /// L⁻¹ of the Cholesky factor of their covariance.
     whitening: DMatrix<f64>,
 }
 
@@ -38,6 +40,7 @@ impl ReadingErrors {
             of_amplitudes,
             between,
             beside,
+            variances: DVector::zeros(0),
             whitening: DMatrix::zeros(0, 0),
         };
         own.follow(lines, &vec![[0.0; 2]; lines.len()])?;
@@ -68,9 +71,22 @@ impl ReadingErrors {
             }
             sum
         });
+        self.variances = covariance.diagonal();
         let factor = covariance.cholesky()?.unpack();
         self.whitening = factor.solve_lower_triangular(&DMatrix::identity(2 * count, 2 * count))?;
         Some(())
+    }
+
+    /// Variances of a line's logarithm of the frequency and of its damping ratio.
+    pub(in crate::response) fn variances_of(&self, line: usize) -> [f64; 2] {
+        let count = self.of_slopes.nrows();
+        [line, count + line].map(|place| self.variances.get(place).copied().unwrap_or(0.0))
+    }
+
+    /// Covariance of the logarithms of the amplitudes of two lines.
+    pub(in crate::response) fn of_amplitudes(&self, line: usize, other: usize) -> f64 {
+        let entry = self.of_amplitudes.get((line, other));
+        entry.copied().unwrap_or(0.0)
     }
 
     /// Deviations of frequencies, then of damping ratios, with their derivatives, in parts that are independent and have a

@@ -18,7 +18,7 @@ use self::stretch::{Part, Point, Stretch, covariance};
 use super::backbone::BackboneLine;
 
 pub(super) use self::errors::ReadingErrors;
-pub(super) use self::simulated::{Following, corrected, followed};
+pub(super) use self::simulated::{Following, beside, corrected, followed};
 
 /// Half-periods that a point of the backbone is read over.
 const HALF_PERIODS: usize = 10;
@@ -201,6 +201,7 @@ impl Stretches {
                 omega: natural,
                 damping_ratio: Some(stretch.decay / natural),
                 force_n: None,
+                time_s: Some(stretch.middle_s),
             }
         };
         self.stretches.iter().map(line).collect()

@@ -68,7 +68,11 @@ impl Following {
 /// to its end slowly, and with too small errors.
 pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun) -> BackboneRun {
     let mut own = corrected(model, &fit.values, run);
-    let Some(here) = beyond_reading(model, &fit.values, run) else {
+    let beyond = |values: &Values| {
+        let read = read(model, values, run)?;
+        Some(beyond_reading(model, values, run, &read))
+    };
+    let Some(here) = beyond(&fit.values) else {
         return own;
     };
     let size = (run.lines.len(), model.unknowns.len());
@@ -96,7 +100,7 @@ pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun)
             if let Some(place) = moved.place(unknown) {
                 *place += sign * step;
             }
-            beyond_reading(model, &moved, run)
+            beyond(&moved)
         };
         let Some((above, below)) = side(1.0).zip(side(-1.0)) else {
             return own;
@@ -115,16 +119,42 @@ pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun)
     own
 }
 
-/// What each line of a run has beyond the reading of the model's own decay: of the logarithm of the frequency and of the
+/// What each line of a run has beyond the model, and how long the model takes from the first amplitude to the last, s.
+pub(in crate::response) type Beside = (Vec<[f64; 2]>, Option<f64>);
+
+/// A run beside the model: beside the reading of its own decay, where the run is one and the model has one.
+pub(in crate::response) fn beside(model: &Model, values: &Values, run: &BackboneRun) -> Beside {
+    let own = read(model, values, run);
+    let beyond = own
+        .as_ref()
+        .map(|read| beyond_reading(model, values, run, read));
+    let duration_s = own.and_then(|read| {
+        let [from, to] = [run.lines.first()?, run.lines.last()?]
+            .map(|line| read_at(&read, line.amplitude_m)?.time_s);
+        Some(to? - from?)
+    });
+    let plain = || {
+        let lines = run.lines.iter();
+        lines.map(|line| line.beyond(model, values)).collect()
+    };
+    (beyond.unwrap_or_else(plain), duration_s)
+}
+
+/// What each line of a run has beyond what was read of the model's own decay: of the logarithm of the frequency and of the
 /// damping ratio.
-fn beyond_reading(model: &Model, values: &Values, run: &BackboneRun) -> Option<Vec<[f64; 2]>> {
-    let corrections = corrections(model, values, run)?;
+fn beyond_reading(
+    model: &Model,
+    values: &Values,
+    run: &BackboneRun,
+    read: &[BackboneLine],
+) -> Vec<[f64; 2]> {
+    let corrections = corrections(model, values, run, read);
     let lines = run.lines.iter().zip(corrections);
     let both = lines.map(|(line, correction)| {
         let measured = line.beyond(model, values);
         [0, 1].map(|kind| measured[kind] - correction[kind])
     });
-    Some(both.collect())
+    both.collect()
 }
 
 /// A decay as it would have been read if reading had no errors, where `values` are those of the joint; others as they are.
@@ -134,7 +164,8 @@ pub(in crate::response) fn corrected(
     run: &BackboneRun,
 ) -> BackboneRun {
     let mut own = run.clone();
-    if let Some(corrections) = corrections(model, values, run) {
+    if let Some(read) = read(model, values, run) {
+        let corrections = corrections(model, values, run, &read);
         for (line, [of_frequency, of_ratio]) in own.lines.iter_mut().zip(corrections) {
             line.omega *= (-of_frequency).exp();
             line.damping_ratio = line.damping_ratio.map(|ratio| ratio - of_ratio);
@@ -168,37 +199,59 @@ fn slopes(model: &Model, values: &Values, line: &BackboneLine) -> [f64; 2] {
     [0, 1].map(|kind| -(above[kind] - below[kind]) / (2.0 * STEP))
 }
 
-/// By how much the logarithm of each frequency and each damping ratio is read too large. `None` where the model has no such decay.
-fn corrections(model: &Model, values: &Values, run: &BackboneRun) -> Option<Vec<[f64; 2]>> {
-    let sigma_s = run.errors.as_ref()?.sigma_s;
-    let mut read: Vec<BackboneLine> = simulated(values, &run.lines, sigma_s)?.lines(0, 1.0);
-    let beyond = |line: &BackboneLine| line.beyond(model, values);
-    read.retain(|line| beyond(line).iter().all(|value| value.is_finite()));
-    let (first, last) = (read.first()?, read.last()?);
+/// By how much the logarithm of each frequency and each damping ratio is read too large.
+fn corrections(
+    model: &Model,
+    values: &Values,
+    run: &BackboneRun,
+    read: &[BackboneLine],
+) -> Vec<[f64; 2]> {
     // What is read is smooth over many half-periods, while the model's curve may have a corner: it is what is read that may
-    // be interpolated, not what it is beyond the model. Amplitudes fall.
-    let at = |amplitude_m: f64| {
-        let mut pairs = read.windows(2);
-        match pairs.find(|pair| pair[1].amplitude_m <= amplitude_m) {
-            _ if amplitude_m >= first.amplitude_m => *first,
-            None => *last,
-            Some(pair) => between(&pair[0], &pair[1], amplitude_m),
-        }
-    };
+    // be interpolated, not what it is beyond the model.
     let lines = run.lines.iter();
-    Some(lines.map(|line| beyond(&at(line.amplitude_m))).collect())
+    let at = lines.map(|line| read_at(read, line.amplitude_m));
+    at.map(|own| own.map_or([0.0; 2], |own| own.beyond(model, values)))
+        .collect()
+}
+
+/// What is read of the model's own decay. `None` where the model has none.
+fn read(model: &Model, values: &Values, run: &BackboneRun) -> Option<Vec<BackboneLine>> {
+    let sigma_s = run.errors.as_ref()?.sigma_s;
+    let mut read = simulated(values, &run.lines, sigma_s)?.lines(0, 1.0);
+    let is_finite = |line: &BackboneLine| {
+        let beyond = line.beyond(model, values);
+        beyond.iter().all(|value| value.is_finite())
+    };
+    read.retain(is_finite);
+    (!read.is_empty()).then_some(read)
+}
+
+/// What is read at an amplitude, or at the nearest. Amplitudes fall.
+fn read_at(read: &[BackboneLine], amplitude_m: f64) -> Option<BackboneLine> {
+    let (first, last) = (read.first()?, read.last()?);
+    let mut pairs = read.windows(2);
+    let found = match pairs.find(|pair| pair[1].amplitude_m <= amplitude_m) {
+        _ if amplitude_m >= first.amplitude_m => *first,
+        None => *last,
+        Some(pair) => between(&pair[0], &pair[1], amplitude_m),
+    };
+    Some(found)
 }
 
 /// What is read at an amplitude between those of two lines.
 fn between(above: &BackboneLine, below: &BackboneLine, amplitude_m: f64) -> BackboneLine {
     let share =
         (amplitude_m / above.amplitude_m).ln() / (below.amplitude_m / above.amplitude_m).ln();
-    let ratios = above.damping_ratio.zip(below.damping_ratio);
+    let between = |above: Option<f64>, below: Option<f64>| {
+        let pair = above.zip(below);
+        pair.map(|(above, below)| above + share * (below - above))
+    };
     BackboneLine {
         amplitude_m,
         omega: above.omega * (below.omega / above.omega).powf(share),
-        damping_ratio: ratios.map(|(above, below)| above + share * (below - above)),
+        damping_ratio: between(above.damping_ratio, below.damping_ratio),
         force_n: None,
+        time_s: between(above.time_s, below.time_s),
     }
 }
 

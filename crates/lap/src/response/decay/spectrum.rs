@@ -13,6 +13,8 @@ const SECOND: f64 = 0.03;
 const VALLEY: f64 = 0.5;
 /// … and it is so many times the noise.
 const ABOVE_NOISE: f64 = 6.0;
+/// How far noise alone may make a dip in the spectrum of one mode, in medians of the spectrum.
+const DIP: f64 = 2.0;
 /// Multiples of the frequency belong to the mode itself, within this part of it.
 const HARMONIC: f64 = 0.05;
 
@@ -75,7 +77,8 @@ impl Spectrum {
     fn peaks(&self, from: usize, to: usize) -> Vec<usize> {
         let mut sorted = self.moduli.clone();
         sorted.sort_by(f64::total_cmp);
-        let floor = ABOVE_NOISE * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let floor = ABOVE_NOISE * median;
         let is_peak = |n: &usize| {
             let own = self.moduli[*n];
             own >= self.moduli[n - 1] && own > *self.moduli.get(n + 1).unwrap_or(&0.0)
@@ -95,7 +98,8 @@ impl Spectrum {
             let stands_alone = |other: &usize| {
                 let between = peak.min(*other)..=peak.max(*other);
                 let valley = self.moduli[between].iter().copied();
-                valley.fold(f64::INFINITY, f64::min) < VALLEY * own
+                // the least of many values is low by noise alone
+                valley.fold(f64::INFINITY, f64::min) + DIP * median < VALLEY * own
             };
             if peaks.iter().all(stands_alone) {
                 peaks.push(peak);

@@ -12,6 +12,8 @@ pub(super) struct Point {
 
 /// Ten half-periods: amplitude, by how much the mode turns faster than the phasor (rad/s), and how it decays (1/s).
 pub(super) struct Stretch {
+    /// The middle of its times.
+    pub(super) middle_s: f64,
     pub(super) amplitude: f64,
     pub(super) detuning: f64,
     pub(super) decay: f64,
@@ -38,6 +40,7 @@ impl Stretch {
         // the window averages e^{(−δ + jΔω)t} to exp(½ (−δ + jΔω)² σ²) of it
         let averaged = 0.5 * slope * slope * sigma_s * sigma_s;
         Self {
+            middle_s,
             amplitude: (mean - averaged).re.exp(),
             detuning: slope.im,
             decay: -slope.re,

@@ -3,6 +3,7 @@
 use bolted_joint_dynamics::law::Term;
 
 use super::*;
+use crate::response::data::SineLine;
 use crate::response::model::ResponseUnknown;
 use crate::response::study::Place;
 use crate::response::terms::TermSet;

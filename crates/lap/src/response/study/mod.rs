@@ -121,6 +121,12 @@ impl LapResponseStudy {
         sines.chain(curves).copied().collect()
     }
 
+    /// Whether a χ² per degree of freedom of one is expected: the noise is stated, or records tell it.
+    #[must_use]
+    pub(in crate::response) fn knows_noise(&self) -> bool {
+        self.noise_is() != NoiseIs::Nominal
+    }
+
     /// Where the level of the noise is from.
     #[must_use]
     pub fn noise_is(&self) -> NoiseIs {

@@ -1,0 +1,147 @@
+//! Backbones and free decays beside the model: frequency and damping over the amplitude, and how long a decay takes.
+
+use bolted_joint_figures::html::{cell, columns, escaped, number_cell, shown, table};
+use bolted_joint_figures::{Line, LineFigure, Scale};
+use bolted_joint_lap::{BackbonePrediction, Expected, LapResponse};
+
+/// Curves of a picture of several runs at most, each with the model's.
+const RUNS: usize = 2;
+
+/// The section of the report; nothing where there are no such runs.
+pub(super) fn section(found: &LapResponse) -> String {
+    if found.backbones.is_empty() {
+        return String::new();
+    }
+    let rows = found.backbones.iter().map(|run| {
+        let (all, outside) = run.outside();
+        let within = match all {
+            0 => String::new(),
+            _ => format!("{} of {all}", all - outside),
+        };
+        let fall = run.fall.as_ref().map(|fall| &fall.duration_s);
+        [
+            cell(&escaped(&run.run)),
+            cell(match run.left_out {
+                true => "<b>left out</b>",
+                false => "fitted",
+            }),
+            number_cell(&shown(run.frequency_error_hz, 2)),
+            number_cell(&run.damping_error.map_or_else(String::new, |error| {
+                format!("{} %", shown(100.0 * error, 2))
+            })),
+            number_cell(&within),
+            number_cell(&fall.map_or_else(String::new, |fall| shown(fall.measured, 4))),
+            number_cell(&fall.map_or_else(String::new, |fall| shown(fall.predicted, 4))),
+            number_cell(
+                &fall
+                    .and_then(|fall| fall.interval_95)
+                    .map_or_else(String::new, |[low, high]| {
+                        format!("{} … {}", shown(low, 4), shown(high, 4))
+                    }),
+            ),
+        ]
+        .concat()
+    });
+    let rows: Vec<String> = rows.collect();
+    let header = columns(
+        "Run||Frequency, Hz r.m.s.|Damping, r.m.s.|Within 95 %|Falls in, s|Model, s|Expected, 95 %",
+    );
+    let pictures = found.backbones.iter().enumerate().map(|(place, run)| {
+        let both = [
+            ("frequency", frequency(run)),
+            ("damping ratio", damping(run)),
+        ];
+        let both = both.into_iter().enumerate();
+        both.filter_map(|(kind, (what, svg))| {
+            let caption = format!("<b>{}</b>: {what} over the amplitude.", escaped(&run.run));
+            Some(super::figure(
+                &format!("curve-{place}-{kind}"),
+                &caption,
+                &svg?,
+            ))
+        })
+        .collect::<String>()
+    });
+    format!(
+        "<h2>Backbones and decays</h2>\n<p>Measured, and of the model at the amplitudes that were measured; of a decay as the model’s own \
+         decay is read. A run that was left out has intervals: the deviations of the unknowns, the noise of the run, and the errors of \
+         its amplitudes. Neither a law that is wrong nor what makes runs differ as a whole is in them.</p>\n{}{}",
+        table(&header, &rows),
+        pictures.collect::<String>()
+    )
+}
+
+/// Frequencies of one run.
+fn frequency(run: &BackbonePrediction) -> Option<String> {
+    let points = run.points.iter();
+    let points = points.map(|point| (point.amplitude_m, point.frequency_hz));
+    drawn(
+        "Frequency over amplitude",
+        "frequency, Hz",
+        beside_model(points.collect(), 1.0),
+    )
+}
+
+/// Damping ratios of one run.
+fn damping(run: &BackbonePrediction) -> Option<String> {
+    let points = run.points.iter();
+    let points = points.filter_map(|point| Some((point.amplitude_m, point.damping_ratio?)));
+    drawn(
+        "Damping over amplitude",
+        "damping ratio, %",
+        beside_model(points.collect(), 100.0),
+    )
+}
+
+/// What was measured, the model, and both ends of what is expected, in a unit of 1/`times`.
+fn beside_model(points: Vec<(f64, Expected)>, times: f64) -> Vec<Line> {
+    let each = |of: &dyn Fn(&Expected) -> Option<f64>| {
+        let points = points.iter();
+        sorted(points.filter_map(|(amplitude_m, own)| Some((1e6 * amplitude_m, times * of(own)?))))
+    };
+    let end = |side: usize| each(&|own| Some(own.interval_95?[side]));
+    let all = [
+        Line::marks("measured", each(&|own| Some(own.measured))),
+        Line::curve("model", each(&|own| Some(own.predicted))),
+        Line::curve("95 %, from", end(0)),
+        Line::curve("95 %, to", end(1)),
+    ];
+    all.into_iter()
+        .filter(|line| !line.points.is_empty())
+        .collect()
+}
+
+/// Ascending in amplitude: a decay falls.
+fn sorted(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = points.collect();
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    points
+}
+
+fn drawn(title: &str, ordinate: &str, lines: Vec<Line>) -> Option<String> {
+    LineFigure {
+        title,
+        across: ("relative displacement, µm", Scale::Logarithmic),
+        up: (ordinate, Scale::Linear),
+        lines,
+    }
+    .to_svg()
+}
+
+/// Frequencies of the first runs, for a picture of its own.
+pub(super) fn frequencies(runs: &[BackbonePrediction]) -> Option<String> {
+    let lines = runs.iter().take(RUNS).flat_map(|run| {
+        let points = || run.points.iter();
+        let at = |of: fn(&Expected) -> f64| {
+            points().map(move |point| (1e6 * point.amplitude_m, of(&point.frequency_hz)))
+        };
+        [
+            Line::marks(escaped(&run.run), sorted(at(|own| own.measured))),
+            Line::curve(
+                format!("{}, model", escaped(&run.run)),
+                sorted(at(|own| own.predicted)),
+            ),
+        ]
+    });
+    drawn("Frequency over amplitude", "frequency, Hz", lines.collect())
+}

@@ -142,7 +142,6 @@ fn rotational_lap() -> Lap<2> {
     }
 }
 
-/// The same without its cubic springs: the FMU then takes one product for all Runge–Kutta steps of a communication step.
 /// Its joint with Iwan's law beside, which slips in part under the motions here.
 fn slipping(lap: &Lap<1>) -> JointLaw<1> {
     let mut joint = lap.joint;
@@ -160,6 +159,7 @@ fn slipping(lap: &Lap<1>) -> JointLaw<1> {
     joint
 }
 
+/// The same without its cubic springs: the FMU then takes one product for all Runge–Kutta steps of a communication step.
 fn without_cubic<const D: usize>(lap: &Lap<D>) -> Lap<D> {
     Lap {
         joint: lap.joint.linear.into(),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use bolted_joint_dynamics::{
     DOFS, JointLaw, Lap,
-    law::{Term, dof_parameters},
+    law::{FIRST_PARAMETER_COUNT, Term, dof_parameters},
 };
 
 /// Instantiation token of both.
@@ -63,7 +63,9 @@ fn joint<const D: usize>(law: &JointLaw<D>) -> String {
             let (symbol, value) = (term.row().symbol, polynomials[i].coefficient(term));
             let _ = writeln!(text, "joint.{symbol}_{dof} {value:e}");
         }
-        for (value, (law, parameter)) in law.on[i].parameters().iter().zip(dof_parameters()) {
+        // no law has another of its kind beside it
+        let parameters = law.on[i].parameters().iter().take(FIRST_PARAMETER_COUNT);
+        for (value, (law, parameter)) in parameters.zip(dof_parameters()) {
             if remembering.contains(&law.name) {
                 let _ = writeln!(text, "joint.{}_{dof} {value:e}", parameter.symbol);
             }

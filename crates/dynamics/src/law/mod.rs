@@ -23,6 +23,7 @@ macro_rules! by_numbers {
 mod bouc_wen;
 mod dahl;
 mod declaration;
+mod dof_laws;
 mod flow;
 mod iwan;
 mod jenkins;
@@ -44,6 +45,7 @@ pub use declaration::{
     ActsOn, Declaration, Outside, Parameter, Quantity, Range, RateOf, Remembered, RememberedAs,
     Span, UnitRule,
 };
+pub use dof_laws::DofLaws;
 pub use iwan::{Iwan, REVERSALS_MAX};
 pub use jenkins::Jenkins;
 pub use joint::{JointLaw, JointMemory};
@@ -56,7 +58,6 @@ pub use places::{
     INNER_PLACES, REMEMBERED_COUNT, REMEMBERED_PLACES, dof_parameters, remembered,
 };
 pub use polynomial::{DAMPER_COUNT, Polynomial, SPRING_COUNT, TERM_COUNT, Tangent, Term};
-pub use side_by_side::DofLaws;
 pub use valanis::Valanis;
 
 use crate::number::Number;

@@ -15,6 +15,23 @@ const FAR_AWAY: f64 = 1e300;
 /// Part of its place by which rounding may put a corner before the joint that has just come to it.
 const ROUNDING: f64 = 1e-10;
 
+/// Saves what is in use of a law's memory; what is left of the room, `None` where it is too small.
+#[inline]
+fn saved<'t>(law: &impl Law<f64>, own: &[f64], to: &'t mut [f64]) -> Option<&'t mut [f64]> {
+    let (saved, rest) = to.split_at_mut_checked(law.used(own))?;
+    saved.copy_from_slice(&own[..saved.len()]);
+    Some(rest)
+}
+
+/// Puts back what was saved of a law's memory; what is left of it.
+fn put_back<'f>(law: &impl Law<f64>, own: &mut [f64], from: &'f [f64]) -> &'f [f64] {
+    // by what was saved: its numbers tell how many they are
+    let used = law.used(from).min(own.len());
+    let (saved, rest) = from.split_at(used);
+    own[..used].copy_from_slice(saved);
+    rest
+}
+
 /// Puts the kinds of laws that act on one relative DOF together, in this order.
 macro_rules! dof_laws {
     ($($name:ident: $law:ident),+ $(,)?) => {
@@ -215,15 +232,26 @@ macro_rules! dof_laws {
             }
 
             /// Saves what is in use of what the laws that are there remember; says no where `to` is too small for it.
+            #[inline]
             pub(super) fn save(&self, memory: &DofMemory, to: &mut [f64]) -> bool {
                 let mut to = to;
-                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
-                    let own = part(memory, place);
-                    let used = $law::new(self.of(place)).used(own);
-                    let Some((saved, rest)) = to.split_at_mut_checked(used) else {
+                $(if PLACES.$name[0].has_memory() && self.has(PLACES.$name[0]) {
+                    let Some(rest) = saved(&self.$name(), part(memory, PLACES.$name[0]), to) else {
                         return false;
                     };
-                    saved.copy_from_slice(&own[..used]);
+                    to = rest;
+                })+
+                !self.has_further() || self.save_further(memory, to)
+            }
+
+            /// Those of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn save_further(&self, memory: &DofMemory, to: &mut [f64]) -> bool {
+                let mut to = to;
+                $(for place in self.further(&PLACES.$name) {
+                    let Some(rest) = saved(&$law::new(self.of(place)), part(memory, place), to) else {
+                        return false;
+                    };
                     to = rest;
                 })+
                 let _ = to;
@@ -233,22 +261,31 @@ macro_rules! dof_laws {
             /// Puts back what was saved.
             pub(super) fn put_back(&self, memory: &mut DofMemory, from: &[f64]) {
                 let mut from = from;
-                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
-                    let own = part_mut(memory, place);
-                    // by what was saved: its numbers tell how many they are
-                    let used = $law::new(self.of(place)).used(from).min(own.len());
-                    let (saved, rest) = from.split_at(used);
-                    own[..used].copy_from_slice(saved);
-                    from = rest;
+                $(for place in self.own(&PLACES.$name[..1]).filter(|place| place.has_memory()) {
+                    from = put_back(&$law::new(self.of(place)), part_mut(memory, place), from);
+                })+
+                $(for place in self.further(&PLACES.$name) {
+                    from = put_back(&$law::new(self.of(place)), part_mut(memory, place), from);
                 })+
                 let _ = from;
             }
 
             /// Whether all that the laws that are there have committed is finite.
+            #[inline]
             #[must_use]
             pub fn is_memory_finite(&self, memory: &DofMemory) -> bool {
                 let mut all = true;
-                $(for place in self.own(&PLACES.$name).filter(|place| place.has_memory()) {
+                $(if PLACES.$name[0].has_memory() && self.has(PLACES.$name[0]) {
+                    all &= self.$name().is_finite(part(memory, PLACES.$name[0]));
+                })+
+                all && (!self.has_further() || self.is_further_memory_finite(memory))
+            }
+
+            /// That of the laws that are not the first of their kind.
+            #[inline(never)]
+            fn is_further_memory_finite(&self, memory: &DofMemory) -> bool {
+                let mut all = true;
+                $(for place in self.further(&PLACES.$name) {
                     all &= $law::new(self.of(place)).is_finite(part(memory, place));
                 })+
                 all

@@ -377,10 +377,15 @@ pub(super) fn used<N: Number>(memory: &[N], slip_force: N) -> usize {
 
 /// Whether all that a commit has written is finite: points were places before.
 pub(super) fn is_finite<N: Number>(memory: &[N]) -> bool {
-    let is_elongated = memory.get(ELONGATED).is_some_and(|it| it.value() != 0.0);
-    let count = if is_elongated { memory.len() } else { DERIVED };
-    let numbers = memory.iter().take(count);
-    numbers.fold(true, |all, number| all & number.is_finite())
+    let all = |numbers: &[N]| {
+        let numbers = numbers.iter();
+        numbers.fold(true, |all, number| all & number.is_finite())
+    };
+    match memory.first_chunk::<DERIVED>() {
+        // so many at once, without a loop
+        Some(first) if first[ELONGATED].value() == 0.0 => all(first),
+        _ => all(memory),
+    }
 }
 
 /// Moves the memory on to r, and returns the heat of the way, J.

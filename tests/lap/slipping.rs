@@ -312,6 +312,9 @@ fn a_backbone_left_out_is_compared() {
     assert!(!own.left_out && same.left_out && other.left_out);
     assert!(same.frequency_error_hz < 1e-4 && same.damping_error.unwrap() < 1e-3);
     assert!(other.frequency_error_hz > 0.1 && other.damping_error.unwrap() > 0.1);
+    // exact data: what the fit leaves is the error of the quadrature, which is alike in the same data
+    assert!(4 * same.outside().1 < same.outside().0);
+    assert!(2 * other.outside().1 > other.outside().0);
     let warnings = found.warnings(&study);
     let of = |name: &str| warnings.iter().any(|text| text.starts_with(name));
     assert!(of("other") && !of("same"), "{warnings:?}");

@@ -26,7 +26,7 @@ impl Checker<'_> {
         let slips = slipping(motions, reference_m).next().is_some();
         let expected = "\"x\" or \"y\", along the interface, or a rotation about \"z\": along the normal nothing slips";
         study.ensure(slips, "joint.translation", "\"z\"", expected)?;
-        let expected = "one tightness, as preload or torque of each bolt: what slips remembers, which a table over the torque cannot";
+        let expected = "one tightness, as preload or torque of each bolt: the stiffness of what slips grows with the torque, and friction over a table keeps its own";
         study.ensure(!has_table, "tightening.torques", "several", expected)?;
         let amplitudes = match table.amplitudes {
             None => None,

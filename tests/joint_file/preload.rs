@@ -1,6 +1,7 @@
 //! Joints over the preload: taken at one, with their deviations, and tables that do not fit.
 
 use bolted_joint::joint::{JointFile, LawError};
+use bolted_joint_dynamics::Beyond;
 use bolted_joint_testing::{begins, close, has};
 
 use crate::{GOOD, refused};
@@ -106,4 +107,70 @@ fn deviations_over_preload_that_do_not_fit_the_joint() {
         let text = OVER_PRELOAD.replacen(from, to, 1);
         has(&refused(&text, ""), &[fragment]);
     }
+}
+
+/// `OVER_PRELOAD` with a slider on y at each preload.
+fn with_sliders(entries: &str) -> String {
+    let cubic = "\"cubic\": [[0, 0], [-1e9, 0], [-3e9, 20]]";
+    assert!(OVER_PRELOAD.contains(cubic));
+    OVER_PRELOAD.replacen(cubic, &format!("{cubic}, \"friction\": [{entries}]"), 1)
+}
+
+fn slider(stiffness: f64, slip_force: f64) -> String {
+    format!(
+        "[{{ \"dof\": \"y\", \"law\": \"jenkins\", \"stiffness\": {stiffness}, \"slip_force\": {slip_force} }}]"
+    )
+}
+
+#[test]
+fn friction_with_a_table_of_its_own_has_its_stiffness_from_it() {
+    let sliders = [(1e6, 20.0), (1.5e6, 30.0), (2.2e6, 50.0)];
+    let entries = sliders.map(|(k, h)| slider(k, h)).join(", ");
+    let text = with_sliders(&entries);
+    let table = JointFile::from_json(&text, "").unwrap();
+    assert_eq!(table.validate(), []);
+    // a fifth of the way from 15 to 25 N·m
+    let at = |preload: Option<f64>| table.at_preload(preload).unwrap().joint.friction[0].clone();
+    close(
+        at(Some(17.0)).parameters[0],
+        0.8 * 1.5e6 + 0.2 * 2.2e6,
+        1e-14,
+    );
+    close(at(Some(17.0)).parameters[1], 0.8 * 30.0 + 0.2 * 50.0, 1e-14);
+    for (preload, (stiffness, slip_force)) in [10.0, 15.0, 25.0].into_iter().zip(sliders) {
+        assert_eq!(at(Some(preload)).parameters, [stiffness, slip_force]);
+    }
+    assert_eq!(at(None), at(Some(15.0)));
+    // while the preload moves, what the springs of friction do is not known
+    let moving = table.joint.law_over_preload::<2>(Beyond::Refused);
+    assert_eq!(moving, Err(LawError::FrictionOverPreload));
+    // read again as it was written
+    let again = JointFile::from_json(&table.to_json().unwrap(), "").unwrap();
+    assert_eq!(again, table);
+}
+
+#[test]
+fn a_table_of_friction_that_does_not_fit_is_refused() {
+    let one = slider(1e6, 20.0);
+    let rotation = one.replace("\"y\"", "\"theta\"");
+    #[rustfmt::skip]
+    let cases = [
+        (format!("{one}, {one}"), "joint.over_preload.friction: found 2 entries, expected 3, one for each of joint.over_preload.preload"),
+        (format!("{one}, {one}, {rotation}"), "joint.over_preload.friction[2]: found \"jenkins on theta\", expected \"jenkins on y\""),
+        (format!("{one}, [], {one}"), "joint.over_preload.friction[1]: found \"\", expected \"jenkins on y\""),
+        (format!("{one}, {}, {one}", slider(1e6, -1.0)), "joint.over_preload.friction[1][0].slip_force: found -1.0"),
+    ];
+    for (entries, fragment) in cases {
+        has(&refused(&with_sliders(&entries), ""), &[fragment]);
+    }
+    let both = with_sliders(&[one.as_str(); 3].join(", "));
+    let both = both.replacen(
+        "\"over_preload\": {",
+        &format!("\"friction\": {one}, \"over_preload\": {{"),
+        1,
+    );
+    has(
+        &refused(&both, ""),
+        &["joint.friction: found beside joint.over_preload.friction"],
+    );
 }

@@ -87,6 +87,7 @@ impl Identification {
                 stiffness: each(|joint| &joint.stiffness),
                 damping: each(|joint| &joint.damping),
                 cubic: Vec::new(),
+                friction: Vec::new(),
             }),
             ..constant
         }

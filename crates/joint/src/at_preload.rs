@@ -3,7 +3,7 @@
 use bolted_joint_dynamics::{Beyond, law::Term, with_dofs};
 
 use super::{
-    FreeEstimate, Intervals, Joint, JointFile, JointProblem, LawError, OverPreload,
+    FreeEstimate, Friction, Intervals, Joint, JointFile, JointProblem, LawError, OverPreload,
     StandardDeviation, Uncertainty, UncertaintyAtPreload,
 };
 
@@ -78,7 +78,8 @@ impl Place {
 
 impl JointFile {
     /// The file of this joint at one preload (N·m), its nominal one unless another is given: K, C and k₃ as
-    /// [`bolted_joint_dynamics::JointOverPreload`] has them between the table's preloads. A joint that does not depend on the
+    /// [`bolted_joint_dynamics::JointOverPreload`] has them between the table's preloads, parameters of friction with a table
+    /// of its own linearly. A joint that does not depend on the
     /// preload is as it was.
     ///
     /// Standard deviations are interpolated linearly. Name, validity and notes tell the preload.
@@ -157,19 +158,15 @@ impl JointFile {
 
 impl Joint {
     fn samples_n_m<const D: usize>(&self) -> Result<Vec<f64>, LawError> {
-        let table = self.law_over_preload::<D>(Beyond::Refused)?;
+        let table = self.springs_over_preload::<D>(Beyond::Refused)?;
         Ok(table.samples_n_m(JUDGED_BETWEEN).collect())
     }
 
     /// The joint at a preload (N·m) of its table.
     fn constant<const D: usize>(&self, preload_n_m: f64) -> Result<Self, LawError> {
         let law = self
-            .law_over_preload::<D>(Beyond::Refused)?
+            .springs_over_preload::<D>(Beyond::Refused)?
             .law(preload_n_m);
-        let share = match &self.over_preload {
-            Some(table) => preload_n_m / table.nominal,
-            None => 1.0,
-        };
         let rows = |matrix: [[f64; D]; D]| matrix.map(|row| row.to_vec()).to_vec();
         let linear = &law.linear;
         let cubic = law
@@ -177,13 +174,34 @@ impl Joint {
             .map(|terms| terms.coefficient(Term::CUBIC));
         Ok(Self {
             cubic: cubic.to_vec(),
-            friction: self
-                .friction
-                .iter()
-                .map(|own| own.at_share_of_preload(share))
-                .collect(),
+            friction: self.friction_at(preload_n_m)?,
             ..Self::linear(self.dofs, rows(linear.stiffness), rows(linear.damping))
         })
+    }
+
+    /// The laws that remember at a preload (N·m) of the table.
+    fn friction_at(&self, preload_n_m: f64) -> Result<Vec<Friction>, LawError> {
+        let Some(table) = &self.over_preload else {
+            return Ok(self.friction.clone());
+        };
+        if table.friction.is_empty() {
+            let share = preload_n_m / table.nominal;
+            let laws = self.friction.iter();
+            return Ok(laws.map(|own| own.at_share_of_preload(share)).collect());
+        }
+        let place = Place::of(preload_n_m, table)?;
+        let at = |entry: usize| table.friction.get(entry).into_iter().flatten();
+        let pairs = at(place.lower).zip(at(place.lower + 1));
+        let between = pairs.map(|(low, high)| {
+            let parameters = low.parameters.iter().zip(&high.parameters);
+            Friction {
+                parameters: parameters
+                    .map(|(&low, &high)| place.between(low, high))
+                    .collect(),
+                ..low.clone()
+            }
+        });
+        Ok(between.collect())
     }
 }
 

@@ -25,6 +25,12 @@ pub enum LawError {
          take it at one preload"
     )]
     OverPreload,
+    /// Laws that remember have a table of their own over the preload, which holds while it stays where it is.
+    #[error(
+        "joint.over_preload.friction: found laws with a table over the preload, expected laws in joint.friction, of which slip \
+         forces alone follow a preload that moves; freeze the joint at one preload (`export --preload`)"
+    )]
+    FrictionOverPreload,
     /// The table over the preload gives no joint.
     #[error("joint.over_preload: {0}")]
     Table(dynamics::TableDefect),
@@ -181,12 +187,31 @@ pub(super) fn term_path(term: Term) -> String {
 }
 
 impl Joint {
-    /// The load law over the preload of a joint with `D` DOFs a side.
+    /// The load law over the preload of a joint with `D` DOFs a side, for a preload that moves.
     ///
     /// # Errors
     ///
-    /// [`LawError`] where the joint has not `D` DOFs, does not depend on the preload, or is malformed.
+    /// [`LawError`] where the joint has not `D` DOFs, does not depend on the preload, has friction of which more than slip
+    /// forces depends on it, or is malformed.
     pub fn law_over_preload<const D: usize>(
+        &self,
+        beyond: dynamics::Beyond,
+    ) -> Result<dynamics::JointOverPreload<D>, LawError> {
+        let table = self.over_preload.as_ref().ok_or(LawError::NoTable)?;
+        let law = self.springs_over_preload(beyond)?;
+        if !table.friction.is_empty() {
+            return Err(LawError::FrictionOverPreload);
+        }
+        let zero = vec![vec![0.0; D]; D];
+        let friction = Self {
+            friction: self.friction.clone(),
+            ..Self::linear(self.dofs, zero.clone(), zero)
+        };
+        Ok(law.with_friction(friction.law()?.on, table.nominal))
+    }
+
+    /// The same without laws that remember.
+    pub(super) fn springs_over_preload<const D: usize>(
         &self,
         beyond: dynamics::Beyond,
     ) -> Result<dynamics::JointOverPreload<D>, LawError> {
@@ -202,13 +227,7 @@ impl Joint {
                 Ok((table.preload[place], joint.law()?))
             })
             .collect::<Result<Vec<_>, LawError>>()?;
-        let law = dynamics::JointOverPreload::new(&entries, beyond).map_err(LawError::Table)?;
-        let zero = vec![vec![0.0; D]; D];
-        let friction = Self {
-            friction: self.friction.clone(),
-            ..Self::linear(self.dofs, zero.clone(), zero)
-        };
-        Ok(law.with_friction(friction.law()?.on, table.nominal))
+        dynamics::JointOverPreload::new(&entries, beyond).map_err(LawError::Table)
     }
 }
 

@@ -61,6 +61,22 @@ pub enum JointProblem {
         "joint.over_preload.nominal: found 0 beside joint.friction, expected a preload above 0: friction is in proportion to it"
     )]
     NothingPresses,
+    /// Laws of a joint over the preload in two places.
+    #[error(
+        "joint.friction: found beside joint.over_preload.friction, expected one of the two: the first has slip forces in \
+         proportion to the preload, the second a table of all parameters; take one of them out"
+    )]
+    FrictionTwice,
+    /// Laws at one preload that are not those at the first.
+    #[error("{path}: found {found:?}, expected {expected:?} as at the first preload")]
+    OtherLaws {
+        /// Path of the list.
+        path: String,
+        /// Its laws, with their DOFs.
+        found: String,
+        /// Those at the first preload.
+        expected: String,
+    },
     /// A law on a DOF that the joint has not.
     #[error("{path}: found {found:?}, expected one of joint.dofs = {dofs}")]
     OtherDof {

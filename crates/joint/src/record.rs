@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
-use super::schema::{entries_above_zero, with_friction};
+use super::schema::{entries_above_zero, with_friction, with_friction_over_preload};
 use super::{DofSet, Friction, HigherTerms, Status};
 
 /// A bolted joint, with what is known about it.
@@ -113,7 +113,7 @@ impl Joint {
 
 /// Stiffness, damping and cubic stiffness at several preloads of the bolt.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema), schemars(transform = with_friction_over_preload))]
 #[serde(deny_unknown_fields)]
 pub struct OverPreload {
     /// Tightening torques, N·m, strictly increasing.
@@ -131,6 +131,11 @@ pub struct OverPreload {
     /// k3 at each preload, in the units of the joint's own. Left out, it is zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cubic: Vec<Vec<f64>>,
+    /// Laws at each preload, the same ones at all: they take the place of `joint.friction`, of which slip forces alone follow
+    /// the preload. Between two preloads their parameters are interpolated linearly. Left out, there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(skip))]
+    pub friction: Vec<Vec<Friction>>,
 }
 
 /// The two bodies of a lap model.

@@ -49,6 +49,21 @@ pub(super) fn with_friction(joint: &mut Schema) {
     }
 }
 
+/// Adds such a list for each preload of a table.
+pub(super) fn with_friction_over_preload(table: &mut Schema) {
+    let list = json!({
+        "description": "Such laws at each preload, the same ones at all, in place of `joint.friction`, of which slip forces alone \
+                        follow the preload.\nBetween two preloads their parameters are interpolated linearly. Left out, there are none.",
+        "type": "array",
+        "minItems": 2,
+        "items": { "$ref": "#/$defs/Joint/properties/friction" }
+    });
+    let properties = table.get_mut("properties");
+    if let Some(properties) = properties.and_then(|properties| properties.as_object_mut()) {
+        properties.insert("friction".to_owned(), list);
+    }
+}
+
 impl JsonSchema for DofSet {
     fn schema_name() -> Cow<'static, str> {
         "DofSet".into()

@@ -76,6 +76,9 @@ impl JointFile {
     }
 }
 
+/// What the lists of a table over the preload are as long as.
+const PRELOADS: &str = "joint.over_preload.preload";
+
 /// The problems found so far, and the DOFs that sizes are compared with.
 struct Check {
     dofs: DofSet,
@@ -118,7 +121,7 @@ impl Check {
         if let Some(terms) = &joint.higher {
             self.higher(terms);
         }
-        self.friction(&joint.friction);
+        self.friction("joint.friction", &joint.friction);
         if let Some(table) = &joint.over_preload {
             if joint.higher.is_some() {
                 self.beside_table("joint.higher", "terms of higher order");
@@ -132,9 +135,9 @@ impl Check {
         self.problems.push(JointProblem::BesideTable { path, what });
     }
 
-    fn friction(&mut self, laws: &[Friction]) {
+    fn friction(&mut self, list: &str, laws: &[Friction]) {
         for (i, own) in laws.iter().enumerate() {
-            let path = format!("joint.friction[{i}]");
+            let path = format!("{list}[{i}]");
             let (dof, law) = (own.dof.name, own.law.name);
             if self.dofs.position(dof).is_none() {
                 self.problems.push(JointProblem::OtherDof {
@@ -181,6 +184,32 @@ impl Check {
         if !laws.is_empty() && table.nominal == 0.0 {
             self.problems.push(JointProblem::NothingPresses);
         }
+        const PATH: &str = "joint.over_preload.friction";
+        let Some(first) = table.friction.first() else {
+            return;
+        };
+        if !laws.is_empty() {
+            self.problems.push(JointProblem::FrictionTwice);
+        }
+        let preloads = table.preload.len();
+        self.table_length(PATH, table.friction.len(), preloads, PRELOADS);
+        for (i, own) in table.friction.iter().enumerate() {
+            let path = format!("{PATH}[{i}]");
+            self.friction(&path, own);
+            let names = |laws: &[Friction]| {
+                let each = laws.iter();
+                each.map(|own| format!("{} on {}", own.law.name, own.dof.name))
+                    .collect::<Vec<_>>()
+            };
+            let [found, expected] = [own, first].map(|laws| names(laws));
+            if found != expected {
+                self.problems.push(JointProblem::OtherLaws {
+                    path,
+                    found: found.join(", "),
+                    expected: expected.join(", "),
+                });
+            }
+        }
     }
 
     fn higher(&mut self, terms: &HigherTerms) {
@@ -199,7 +228,6 @@ impl Check {
 
     fn over_preload(&mut self, table: &OverPreload) {
         const PATH: &str = "joint.over_preload";
-        const PRELOADS: &str = "joint.over_preload.preload";
         let path = format!("{PATH}.preload");
         let preloads = &table.preload;
         if preloads.len() < 2 {
@@ -249,7 +277,6 @@ impl Check {
         table: Option<&OverPreload>,
     ) {
         const PATH: &str = "uncertainty.over_preload";
-        const PRELOADS: &str = "joint.over_preload.preload";
         let preloads = table.map_or(&[][..], |table| &table.preload);
         let path = format!("{PATH}.at");
         self.table_length(&path, uncertainty.at.len(), preloads.len(), PRELOADS);

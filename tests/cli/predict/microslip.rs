@@ -3,7 +3,7 @@
 use bolted_joint_testing::{close, has, near};
 use serde_json::Value;
 
-use super::{PREDICT, STUDY, bench, over_torque};
+use super::{PREDICT, STUDY, bench, over_torque, predicted};
 use crate::bench::{Bench, replaced};
 use crate::examples::files_of;
 
@@ -148,8 +148,6 @@ fn what_cannot_slip_is_refused() {
     let along = |study: &str| replaced(study, "translation = \"z\"\nrotation = \"-y\"", "translation = \"x\"");
     refused(&with(&smooth), &["`joint.translation`", "\"z\"", "along the normal nothing slips"]);
     refused(&with(&along(STUDY)), &["`contact.shear_strength`", "100000000", "[microslip]"]);
-    let table = along(&over_torque()).replace("shear_strength = 1e8\n", "");
-    refused(&with(&table), &["`tightening.torques`", "one tightness"]);
     let wrong = with(&along(&smooth)).replace("[microslip]", "[microslip]\namplitudes = { from = 2e-6, to = 1e-6 }");
     refused(&wrong, &["`microslip.amplitudes`", "0.000002", "smaller to a larger"]);
     let aside = with(&along(&smooth)).replace("translation = \"x\"", "translation = \"x\"\nrotation = \"z\"\nreference = [0, 0.1]");
@@ -157,6 +155,44 @@ fn what_cannot_slip_is_refused() {
     let layer = with(&along(&smooth)).replace("fractal-contact", "virtual-material").replace("friction = 0.3\n", "")
         .replace("[interface]", "[layer]\nthickness = [0.001, 0.001]\n[interface]").replace("poissons_ratio = 0.28", "poissons_ratio = 0.28\ndensity = 7800");
     refused(&layer, &["`microslip`", "fractal-contact"]);
+}
+
+/// Over the torque each law is that of a study of this torque alone: slip forces in proportion, stiffness not.
+#[test]
+fn what_slips_has_its_stiffness_at_every_torque() {
+    let along = |study: &str| {
+        let study = study.replace("shear_strength = 1e8\n", "");
+        let joint = "translation = \"z\"\nrotation = \"-y\"";
+        replaced(&study, joint, "translation = \"y\"\n[microslip]")
+    };
+    let bench = bench(&along(&over_torque()));
+    bench.done(PREDICT);
+    let joint = &bench.json("j.joint.json")["joint"];
+    assert!(joint["friction"].is_null());
+    let table = &joint["over_preload"]["friction"];
+    for (place, torque) in [5, 10, 15, 20, 25].into_iter().enumerate() {
+        let alone = along(STUDY).replace("torque = 20\n", &format!("torque = {torque}\n"));
+        let alone = &predicted(&alone)["joint"]["friction"][0];
+        let own = &table[place][0];
+        for key in ["slip_force", "stiffness", "exponent", "ratio"] {
+            close(number(&own[key]), number(&alone[key]), 1e-9);
+        }
+        let slip_force = number(&table[3][0]["slip_force"]);
+        close(
+            number(&own["slip_force"]),
+            slip_force * f64::from(torque) / 20.0,
+            1e-9,
+        );
+    }
+    let ratio = number(&table[1][0]["stiffness"]) / number(&table[3][0]["stiffness"]);
+    assert!((0.5..0.6).contains(&ratio), "{ratio}");
+    // a preload that moves is refused, one that stays is exported
+    bench.refused(
+        "export j.joint.json -o j.fmu",
+        &["joint.over_preload.friction", "--preload"],
+    );
+    bench.done("export j.joint.json -o j.fmu --preload 12");
+    bench.done("check j.fmu");
 }
 
 /// The example goes from a study to loops and to an FMU.

@@ -96,6 +96,7 @@ impl LapUpdate {
                 cubic: each(|torque| torque.file_value(LapParameter::JointCubic))
                     .map(|value| vec![value])
                     .collect(),
+                friction: Vec::new(),
             }),
             ..file.joint
         };

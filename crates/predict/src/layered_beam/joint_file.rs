@@ -95,6 +95,7 @@ pub(super) fn lap_file(
                         .map(|(_, damping)| vec![vec![at(damping)]])
                         .collect(),
                     cubic: Vec::new(),
+                    friction: Vec::new(),
                 });
             }
             // ζ of the beam is amplitude₀/amplitude times that of the joint
@@ -127,6 +128,7 @@ pub(super) fn lap_file(
                     stiffness: vec![stiffness; over_torque.len()],
                     damping: vec![none; over_torque.len()],
                     cubic: Vec::new(),
+                    friction: Vec::new(),
                 });
                 notes.push("the slip force is in proportion to the torque".to_owned());
             }

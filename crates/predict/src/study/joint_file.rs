@@ -22,9 +22,7 @@ impl Prediction<'_> {
         let dofs = self.study.motions.dofs();
         let part = &nominal.part;
         let mut joint = Joint::linear(dofs, part.stiffness.clone(), part.damping.clone());
-        let slips = nominal.slips.iter();
-        let laws = slips.filter_map(|slip| Friction::of(slip.dof, &slip.fitted.law));
-        joint.friction.extend(laws);
+        joint.friction.extend(friction(nominal));
         JointFile {
             format: Format::V1,
             name: self.study.name.clone(),
@@ -49,6 +47,7 @@ impl Prediction<'_> {
         Joint {
             stiffness: Vec::new(),
             damping: Vec::new(),
+            friction: Vec::new(),
             over_preload: Some(OverPreload {
                 preload: self.study.torques_n_m.clone(),
                 nominal: nominal_n_m,
@@ -56,8 +55,16 @@ impl Prediction<'_> {
                     .clone()
                     .map(|state| state.part.stiffness.clone())
                     .collect(),
-                damping: states.map(|state| state.part.damping.clone()).collect(),
+                damping: states
+                    .clone()
+                    .map(|state| state.part.damping.clone())
+                    .collect(),
                 cubic: Vec::new(),
+                // not in proportion: the contacts' stiffness grows as well
+                friction: match self.study.microslip {
+                    Some(_) => states.map(|state| friction(state).collect()).collect(),
+                    None => Vec::new(),
+                },
             }),
             ..constant
         }
@@ -216,6 +223,12 @@ impl Prediction<'_> {
         };
         provenance(study.method, model, study.files.clone(), notes)
     }
+}
+
+/// The laws of what slips in a state.
+fn friction(state: &State) -> impl Iterator<Item = Friction> {
+    let slips = state.slips.iter();
+    slips.filter_map(|slip| Friction::of(slip.dof, &slip.fitted.law))
 }
 
 /// What is said of the motions that the joint file leaves out, if it leaves out any.

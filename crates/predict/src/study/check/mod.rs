@@ -185,7 +185,7 @@ impl Checker<'_> {
                 return study.refuse("damping.mass", mass, expected);
             }
         };
-        let microslip = self.microslip(&file, motions, reference_m, !torques_n_m.is_empty())?;
+        let microslip = self.microslip(&file, motions, reference_m)?;
         let monte_carlo = self.monte_carlo(file.uncertainty.as_ref())?;
         Ok(InterfaceStudy {
             path: study.path().to_owned(),

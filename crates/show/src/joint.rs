@@ -7,7 +7,7 @@ use bolted_joint_dynamics::{DofKind, with_dofs};
 use bolted_joint_export::joint_curves;
 use bolted_joint_figures::html::escaped;
 use bolted_joint_figures::{Line, LineFigure, Scale};
-use bolted_joint_joint::{JointFile, OverPreload, unit};
+use bolted_joint_joint::{Friction, JointFile, OverPreload, unit};
 use bolted_joint_report::ShownPicture;
 use bolted_joint_respond::HysteresisLoop;
 use serde_json::json;
@@ -55,7 +55,7 @@ pub(crate) fn tell(file: &JointFile, shown: &mut Shown) {
     }
     shown.facts_of(
         "beyond linear",
-        terms(file).into_iter().chain(friction(file)),
+        terms(file).into_iter().chain(friction(&joint.friction)),
     );
     if let Some(table) = &joint.over_preload {
         shown.facts_of("over preload", over_preload(file, table));
@@ -180,8 +180,8 @@ fn terms(file: &JointFile) -> Vec<String> {
     all.collect()
 }
 
-fn friction(file: &JointFile) -> Vec<String> {
-    let laws = file.joint.friction.iter().map(|own| {
+fn friction(laws: &[Friction]) -> Vec<String> {
+    let laws = laws.iter().map(|own| {
         let values = own
             .law
             .parameters
@@ -212,7 +212,13 @@ fn over_preload(file: &JointFile, table: &OverPreload) -> Vec<String> {
                 .map(|own| matrix(file, own, None, parameter))
                 .unwrap_or_default()
         };
-        let entries = [of(&table.stiffness, STIFFNESS), of(&table.damping, DAMPING)].concat();
+        let laws = table.friction.get(place).map_or(&[][..], Vec::as_slice);
+        let entries = [
+            of(&table.stiffness, STIFFNESS),
+            of(&table.damping, DAMPING),
+            friction(laws),
+        ]
+        .concat();
         told.push(format!(
             "{} N·m: {}",
             short(*preload, 4),

@@ -186,6 +186,10 @@ fn what_slips_has_its_stiffness_at_every_torque() {
     }
     let ratio = number(&table[1][0]["stiffness"]) / number(&table[3][0]["stiffness"]);
     assert!((0.5..0.6).contains(&ratio), "{ratio}");
+    has(
+        &bench.done("show j.joint.json").stdout,
+        &["20 N·m: k_yy", "iwan on y"],
+    );
     // a preload that moves is refused, one that stays is exported
     bench.refused(
         "export j.joint.json -o j.fmu",

@@ -314,7 +314,8 @@ fn a_backbone_left_out_is_compared() {
     assert!(other.frequency_error_hz > 0.1 && other.damping_error.unwrap() > 0.1);
     // exact data: what the fit leaves is the error of the quadrature, which is alike in the same data
     assert!(4 * same.outside().1 < same.outside().0);
-    assert!(2 * other.outside().1 > other.outside().0);
+    // from the 24th of 40 points on, where one of the two slips
+    assert!(4 * other.outside().1 > other.outside().0);
     let warnings = found.warnings(&study);
     let of = |name: &str| warnings.iter().any(|text| text.starts_with(name));
     assert!(of("other") && !of("same"), "{warnings:?}");

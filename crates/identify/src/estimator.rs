@@ -188,10 +188,22 @@ pub(super) fn estimate(
             break;
         }
     }
+    let end = (weights, state, levels);
+    Some(arrived(objective, noise, end, (converged, unrest)))
+}
+
+/// The estimate at a point with the weights that it gives itself: whether it has converged, and its unrest.
+pub(super) fn arrived(
+    objective: &Objective<'_>,
+    noise: &Noise,
+    (weights, state, levels): (Vec<Weights>, State, Levels),
+    (converged, unrest): (bool, f64),
+) -> Estimate {
+    let (measurements, unknowns) = (objective.measurements(), state.unknowns.len());
     let log_determinant = objective.log_variances_of_scatter(&weights) + log_variances(&weights)
         - objective.log_powers();
     let cost = state.normal.cost;
-    Some(Estimate {
+    Estimate {
         unknowns: state.unknowns,
         cost,
         misfit: misfit(noise, cost, log_determinant, measurements),
@@ -202,7 +214,7 @@ pub(super) fn estimate(
         converged,
         unrest,
         corrections: state.corrections,
-    })
+    }
 }
 
 /// −2 log-likelihood up to a constant; where noise is not stated the common scale of the variances is profiled out.

@@ -12,6 +12,7 @@ use super::layout::Layout;
 use super::model::{JointMatrices, JointModel, is_positive_semidefinite};
 use super::noise::Noise;
 use super::objective::Objective;
+use super::observed::Observed;
 use super::passive;
 use super::search::Found;
 use super::uncertainty::{self, Covariance};
@@ -195,9 +196,17 @@ pub(super) struct CovarianceOfAll {
 }
 
 impl CovarianceOfAll {
-    pub(super) fn of(objective: &Objective<'_>, noise: &Noise, found: &Found) -> Self {
+    pub(super) fn of(
+        objective: &Objective<'_>,
+        noise: &Noise,
+        found: &Found,
+        observed: Option<&Observed>,
+    ) -> Self {
         let estimate = &found.estimate;
-        let unit = uncertainty::unit_covariance(&estimate.information);
+        let mut unit = uncertainty::unit_covariance(&estimate.information);
+        if let Some(observed) = observed {
+            unit += &observed.added;
+        }
         let reduced = estimate.reduced_chi_squared();
         let is_known = found.assessment.noise_is_known;
         // Stated noise is believed as long as χ² does not contradict it; otherwise the residual tells the level. What coherence

@@ -43,6 +43,7 @@ mod motions;
 mod noise;
 mod normal;
 mod objective;
+mod observed;
 mod outliers;
 pub mod parallel;
 mod passive;

@@ -1,5 +1,7 @@
 //! From lines to a joint: decoupling, averages, the search, the passive estimate, and how sure all of it is.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use bolted_joint_frf::Dof;
@@ -20,6 +22,7 @@ use super::line_by_line::{Equations, decouple};
 use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::{Levels, Noise, NoiseLevel, Of};
+use super::observed::{self, Observed};
 use super::parallel;
 use super::passive;
 use super::reliability::{NOTABLE_UNREST, TOLERABLE_UNREST};
@@ -94,6 +97,8 @@ pub struct LinesEstimate {
     /// By how many standard deviations an unknown still moved when the search ended: zero where it had come to rest, infinite
     /// where nothing can be said.
     pub unrest: f64,
+    /// How much of what seems to be information is noise of the substructures, where several bolts have joints of their own.
+    pub(super) observed: Option<Observed>,
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
@@ -351,14 +356,17 @@ pub fn identify_lines(
         .iter()
         .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
         .collect();
-    let found = problem
+    let mut found = problem
         .best(&layout, &starts, options.effort(), None)
         .map_err(|starts| no_estimate(all, starts))?;
     let places = layout.places();
-    let objective = found.used.assemblies.objective(&places);
+    let used = Arc::clone(&found.used);
+    let objective = used.assemblies.objective(&places);
+    let (estimate, observed) = observed::observed(&objective, noise, found.estimate);
+    found.estimate = estimate;
     let estimate = &found.estimate;
     let names = options.bolts.with_own_joint();
-    let covariance = CovarianceOfAll::of(&objective, noise, &found);
+    let covariance = CovarianceOfAll::of(&objective, noise, &found, observed.as_ref());
     let passive = passive::passive(&objective, &layout, noise, estimate);
     let draws = options.bootstrap.and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
@@ -433,6 +441,7 @@ pub fn identify_lines(
         layout,
         covariance_of_all: covariance.matrix,
         unrest: unrest(&found),
+        observed,
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
         lines_used: (

@@ -8,6 +8,7 @@ use super::identification::{AssemblyFit, Identification};
 use super::layout::Bolts;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointModel;
+use super::observed::Observed;
 use super::slips::{FoundSlip, are_certain};
 
 /// Relative difference that half of the measured values must stay below. A joint model that is too simple leaves a few tens of per
@@ -59,6 +60,13 @@ pub(super) fn reasons_against(
     let mut reasons = Vec::new();
     if estimate.unrest > TOLERABLE_UNREST {
         reasons.push("the search for the estimate has not converged".to_owned());
+    }
+    if estimate.observed.as_ref().is_some_and(Observed::is_void) {
+        reasons.push(
+            "the noise of A and B is larger than what tells the bolts apart: measure A and B with less noise, or bolts that are \
+             farther from each other, or let them have one joint (`bolts = \"alike\"`)"
+                .to_owned(),
+        );
     }
     let names = bolts.with_own_joint();
     for joint in &estimate.joints {

@@ -171,6 +171,15 @@ impl Systematic {
         layout.matrices(&found.unknowns).into_iter().next()
     }
 
+    /// The same with what noise of the substructures adds to the scatter of bolts near each other.
+    pub(super) fn beside(mut self, estimate: &LinesEstimate) -> Self {
+        if let Some(observed) = &estimate.observed {
+            self.covariance += &observed.added;
+            self.noise_covariance += &observed.added;
+        }
+        self
+    }
+
     fn at_levels(
         study: &Study,
         (all, joints): (&[Lines], &[usize]),

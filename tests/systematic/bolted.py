@@ -227,11 +227,23 @@ def a_little_wrong(program, folder, draw, budget, kind, is_placed=False):
     study = test.write(folder, sets, "relative = 0.01\nfloor = 0", kind, budget)
     _, _, whole = identified(program, study, 2)
     files = [one["joint_file"] for one in whole["bolts"]] if whole["bolts"] else [whole["joint_file"]]
-    if not whole["usable"]:
-        return None
+    return in_deviations(files, joints) if whole["usable"] else None
+
+
+def in_deviations(files, joints):
+    """Errors of the unknowns of each joint file in their standard deviations, one bolt after the other."""
     truth = [np.array([*k[np.triu_indices(2)], *c[np.triu_indices(2)]]) for k, c in joints]
     z = [(entries(file["joint"]) - exact) / entries(file["uncertainty"]["standard_deviation"]) for file, exact in zip(files, truth)]
     return np.concatenate(z)
+
+
+def near(program, folder, seed, bolts, spacing):
+    """Joints of bolts that are near each other, where all functions have noise of 1 %: errors in deviations, and what is said."""
+    test = Rig(bolts, spacing=spacing)
+    joints = drawn(np.random.default_rng(seed), bolts, equal=False)
+    sets = test.test_data(rig.Mistakes(), joints, 0.01, seed)
+    _, _, whole = identified(program, test.write(folder, sets, "relative = 0.01\nfloor = 0"), bolts)
+    return in_deviations([one["joint_file"] for one in whole["bolts"]], joints), whole
 
 
 def main(draws=24, bolts=2):

@@ -1,12 +1,12 @@
 //! A study of method `frf-space`, checked, with its functions read.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr as _;
 
-use bolted_joint_frf::{Direction, Dof, FrfSet, ReadOptions, Sign, read_frfs};
+use bolted_joint_frf::{Direction, Dof, FrfReading, FrfSet, ReadOptions, Sign, read_frfs};
 use bolted_joint_joint::InputFile;
 use bolted_joint_space::{Axes, JointModel, Mirrors, Parametrisation};
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{LineChoice, Paths, StudyError, StudyText};
 use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
 use nalgebra::{Matrix3, Vector3};
 
@@ -104,13 +104,20 @@ impl Reader<'_> {
     pub(crate) fn functions(
         &self,
         key: &str,
-        path: &Path,
-        [from_hz, to_hz]: [f64; 2],
+        paths: &Paths,
+        lines: &LineChoice,
     ) -> Result<FrfSet, StudyError> {
-        let path = self.study.resolved(path);
-        let reading = read_frfs(&path, &ReadOptions::default()).map_err(StudyError::of_file)?;
-        let set = reading.into_set().map_err(StudyError::of_file)?;
+        let readings = paths
+            .iter()
+            .map(|path| read_frfs(self.study.resolved(path), &ReadOptions::default()))
+            .collect::<Result<_, _>>();
+        let reading = readings.and_then(FrfReading::joined);
+        let set = reading
+            .and_then(FrfReading::into_set)
+            .map_err(StudyError::of_file)?;
+        let [from_hz, to_hz] = lines.range_hz;
         set.restricted_to(from_hz, to_hz)
+            .and_then(|set| set.thinned(&lines.bands_hz, lines.every))
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
     }
 

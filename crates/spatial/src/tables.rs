@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bolted_joint_study::{FrequencyTable, Method, one_or_more_tables};
+use bolted_joint_study::{FrequencyTable, Method, Paths, one_or_more_tables};
 use serde::{Deserialize, Deserializer};
 
 #[derive(Deserialize)]
@@ -44,7 +44,7 @@ fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointTable>,
 #[serde(deny_unknown_fields)]
 pub(crate) struct PartTable {
     /// Measured or computed functions.
-    pub(crate) frf: Option<PathBuf>,
+    pub(crate) frf: Option<Paths>,
     /// Modes.
     pub(crate) modal: Option<PathBuf>,
     /// Node whose six motions are those of the interface.
@@ -133,7 +133,7 @@ pub(crate) struct ImpactTable {
 #[serde(deny_unknown_fields)]
 pub(crate) struct AssemblyTable {
     /// Left out while nothing is measured.
-    pub(crate) frf: Option<PathBuf>,
+    pub(crate) frf: Option<Paths>,
     /// Which of the DOFs will be measured; all if left out. Of a plan alone.
     pub(crate) responses: Option<Vec<String>>,
     pub(crate) references: Option<Vec<String>>,

@@ -7,14 +7,18 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// `[frequency]`: the band that is used, Hz.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+/// `[frequency]`: the lines that are used, Hz.
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrequencyTable {
-    /// Its lower end.
+    /// Lower end of the band.
     pub from: Option<f64>,
     /// Its upper end.
     pub to: Option<f64>,
+    /// Several bands in place of one.
+    pub bands: Option<Vec<[f64; 2]>>,
+    /// Every how many lines one is used.
+    pub every: Option<u64>,
 }
 
 /// `[uncertainty]`: how a Monte Carlo simulation draws.

@@ -33,10 +33,12 @@ def study(run, demo, tmp_path):
 
     def identify(assembly='frf = "assembly.uff"', frequency="from = 5\nto = 512", expect=0):
         own = text.replace('frf = "assembly.uff"', assembly).replace("from = 5\nto = 512", frequency)
+        own = own.replace(*identify.replace)
         (tmp_path / "study.toml").write_text(own, encoding="utf-8")
         output = tmp_path / "o.joint.json"
         done = run("identify", tmp_path / "study.toml", "--no-rivals", "-o", output, expect=expect)
         return (json.loads(output.read_text(encoding="utf-8")) if output.exists() else None), done
 
     identify.folder = tmp_path
+    identify.replace = ("", "")
     return identify

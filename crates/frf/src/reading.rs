@@ -31,6 +31,8 @@ pub struct FrfReading {
     /// The number of data sets that are neither functions (58) nor units (164).
     pub skipped_datasets: usize,
     pub(super) statements: Statements,
+    /// What was found in which array of a file of arrays.
+    pub(super) taken: Vec<(&'static str, String)>,
 }
 
 impl FrfReading {
@@ -38,6 +40,12 @@ impl FrfReading {
     #[must_use]
     pub fn functions(&self) -> &[Frf] {
         &self.functions
+    }
+
+    /// What was found in which array of a file of arrays: such as functions in `H`; nothing for other files.
+    #[must_use]
+    pub fn taken(&self) -> &[(&'static str, String)] {
+        &self.taken
     }
 
     /// The number of averages behind the functions, where the caller or the file states it.

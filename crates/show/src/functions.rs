@@ -45,6 +45,13 @@ fn shown(reading: FrfReading) -> Result<Shown, ShowError> {
         .map(|own| own.kind)
         .collect();
     let others = reading.skipped_datasets;
+    let taken = reading.taken().iter();
+    let taken: Vec<String> = taken
+        .map(|(what, name)| format!("{what} from {name}"))
+        .collect();
+    if !taken.is_empty() {
+        shown.fact("arrays", taken.join(", "));
+    }
     let units_are_stated = reading.units_are_stated();
     if reading.functions().is_empty() && !reading.coherences.is_empty() {
         coherences_alone(&reading, &mut shown);

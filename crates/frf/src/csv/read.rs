@@ -170,6 +170,7 @@ pub fn read_csv_from(
         skipped_functions: Vec::new(),
         skipped_datasets: 0,
         statements,
+        taken: Vec::new(),
     })
 }
 

@@ -6,7 +6,7 @@ use std::str::FromStr as _;
 use bolted_joint_frf::{Direction, Dof, FrfReading, FrfSet, ReadOptions, Sign, read_frfs};
 use bolted_joint_joint::InputFile;
 use bolted_joint_space::{Axes, JointModel, Mirrors, Parametrisation};
-use bolted_joint_study::{LineChoice, Paths, StudyError, StudyText};
+use bolted_joint_study::{LineChoice, Paths, StudyError, StudyText, schema};
 use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
 use nalgebra::{Matrix3, Vector3};
 
@@ -15,8 +15,7 @@ use crate::links::Links;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
 use crate::tables::{
-    BudgetTable, DeviationsTable, JointTable, ModelName, NoBudget, NoiseTable, SensorTable,
-    StudyFile,
+    BudgetTable, DeviationsTable, JointTable, ModelName, NoiseTable, SensorTable, StudyFile,
 };
 
 /// Frequencies that are the same, in parts.
@@ -53,6 +52,12 @@ pub(crate) const DIRECTIONS: [Direction; MOTIONS] = [
 ];
 
 impl SpatialStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// A study from its text, with the files that it names.
     ///
     /// # Errors
@@ -349,7 +354,7 @@ impl Reader<'_> {
             rotation,
             gain,
         } = match table {
-            BudgetTable::Word(NoBudget::None) => return Ok(None),
+            BudgetTable::None => return Ok(None),
             BudgetTable::Deviations(own) => *own,
         };
         let value = |key: &str, given: Option<f64>, typical: f64| {

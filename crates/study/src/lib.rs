@@ -23,6 +23,7 @@ mod lines;
 mod method;
 mod origin;
 mod paths;
+pub mod schema;
 mod stated;
 mod tables;
 mod text;

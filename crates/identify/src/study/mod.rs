@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use bolted_joint_frf::structure::{Beam, Difference, FiniteDifference, Section};
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_joint::Bodies;
-use bolted_joint_study::{LineChoice, Method, Paths, StudyText};
+use bolted_joint_study::{LineChoice, Method, Paths, StudyText, schema};
 use bolted_joint_systematic::Budget;
 use nalgebra::DMatrix;
 
@@ -295,6 +295,12 @@ fn by_side(points: &[Dof], on_a: usize) -> (&[Dof], &[Dof]) {
 }
 
 impl Study {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// The points of B at which the first assembly was measured, and those of A.
     pub(super) fn points_by_side(&self) -> (&[Dof], &[Dof]) {
         by_side(&self.points, self.points_on_a)

@@ -4,6 +4,7 @@ mod universal;
 
 use std::f64::consts::TAU;
 use std::fmt::Display;
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
@@ -72,6 +73,14 @@ impl ModalModel {
         }
         let text = text_file::read(path, "modal data (TOML)")?;
         Self::from_toml(&text, path)
+    }
+
+    /// Modes of a universal file (data sets 55) from any reader; `path` is what messages call it.
+    ///
+    /// # Errors
+    /// [`StructureError`], which names the file and the line or key.
+    pub fn from_universal(reader: impl BufRead, path: &Path) -> Result<Self, StructureError> {
+        universal::read_from(reader, path)
     }
 
     /// Modal data from the text of a TOML file; `path` is what messages call it.

@@ -1,7 +1,7 @@
 //! Modes of a universal file (data set 55), made into those of a substructure: SI, unit modal masses, names of points.
 
 use std::fs::File;
-use std::io::{BufReader, Read as _};
+use std::io::{BufRead, BufReader, Read as _};
 use std::path::Path;
 
 use num_complex::Complex64;
@@ -44,7 +44,12 @@ pub(super) fn read(path: &Path) -> Result<ModalModel, StructureError> {
             source,
         })
     })?;
-    let shapes = read_shapes(BufReader::new(file), path).map_err(Box::new)?;
+    read_from(BufReader::new(file), path)
+}
+
+/// As [`read`], from any reader.
+pub(super) fn read_from(reader: impl BufRead, path: &Path) -> Result<ModalModel, StructureError> {
+    let shapes = read_shapes(reader, path).map_err(Box::new)?;
     model(path, &shapes)
 }
 

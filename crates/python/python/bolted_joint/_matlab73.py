@@ -1,6 +1,7 @@
 """Files of MATLAB's ``save -v7.3``, which are HDF5: read by h5py, and handed on as an archive of the same arrays."""
 
 import contextlib
+import importlib
 import os
 import pathlib
 import tempfile
@@ -30,7 +31,8 @@ def is_one(path: str | os.PathLike[str]) -> bool:
 def archive(path: str | os.PathLike[str]) -> Iterator[pathlib.Path]:
     """The arrays of a file as a NumPy archive, as long as the block runs; DOFs and matrices keep their names."""
     try:
-        import h5py
+        # by name, since its types are not known to those who check ours
+        h5py: Any = importlib.import_module("h5py")
     except ImportError:
         raise BoltedJointError(
             f"{os.fspath(path)}: a MATLAB file of -v7.3 (HDF5) needs h5py: pip install h5py; or save it in MATLAB with '-v7'"

@@ -1,4 +1,4 @@
-//! `init`: a first study from the files of a folder.
+//! `init`: a first study from the files of a folder, and the schema by which editors complete its keys.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -9,6 +9,7 @@ use bolted_joint::show::draft;
 
 use super::error::CliError;
 use super::output::{check_output, is_standard_output, print, write_file};
+use super::schema;
 
 /// `init`
 #[derive(Debug, Args)]
@@ -19,9 +20,15 @@ pub(super) struct InitArguments {
     /// Study to write [default: study.toml in the folder, unless there is one]
     #[arg(short, long, value_name = "NAME.toml")]
     output: Option<PathBuf>,
+    /// Print the JSON Schema of studies, and do nothing else
+    #[arg(long, exclusive = true)]
+    schema: bool,
 }
 
 pub(super) fn run(arguments: &InitArguments) -> Result<(), CliError> {
+    if arguments.schema {
+        return print(&schema::text());
+    }
     let default = arguments.folder.join("study.toml");
     let output = match &arguments.output {
         Some(output) => output,
@@ -33,7 +40,21 @@ pub(super) fn run(arguments: &InitArguments) -> Result<(), CliError> {
     };
     let draft = draft(&arguments.folder)?;
     check_output(output, &[])?;
-    write_file(output, draft.text.as_bytes())?;
+    let schema = match is_standard_output(output) {
+        true => None,
+        false => Some(output.with_file_name(schema::FILE)),
+    };
+    // editors look for this line at the top
+    let mut study = schema
+        .as_ref()
+        .map_or_else(String::new, |_| format!("#:schema ./{}\n", schema::FILE));
+    study += &draft.text;
+    write_file(output, study.as_bytes())?;
+    let mut written = vec![output.display().to_string()];
+    if let Some(schema) = schema.filter(|schema| !schema.exists()) {
+        write_file(&schema, schema::text().as_bytes())?;
+        written.push(format!("{} (its keys, for editors)", schema.display()));
+    }
     let mut text = String::new();
     for note in &draft.notes {
         let _ = writeln!(text, "{note}");
@@ -42,7 +63,8 @@ pub(super) fn run(arguments: &InitArguments) -> Result<(), CliError> {
         let path = output.display();
         let _ = writeln!(
             text,
-            "wrote {path}\nthen: bolted-joint identify {path} -o NAME.joint.json"
+            "wrote {}\nthen: bolted-joint identify {path} -o NAME.joint.json",
+            written.join("\nwrote ")
         );
     }
     print(&text)

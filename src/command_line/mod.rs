@@ -20,6 +20,7 @@ mod predict;
 mod progress;
 mod reproduce;
 mod respond;
+mod schema;
 mod shell;
 mod show;
 mod table;

@@ -6,10 +6,18 @@ use std::path::Path;
 use bolted_joint::frf::{
     ReadOptions, read_csv_from, read_mat_from, read_npz_from, read_uff58_from,
 };
+use bolted_joint::structure::ModalModel;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
 use super::own_file;
+
+/// Tables in every dress, with what NumPy and analysers write.
+const TABLES: [&str; 3] = [
+    "f;1:+Y/2:+Y complex;3:+Y/2:+Y complex [m/N]\nHz;m/N;-\n1;(1,5e+00-2,5e-01j);3i\n2;1+j;2\n",
+    "# unit = dB re 1e-6 m/s^2/N\nfrequency [Hz],1:+Y/2:+Y magnitude,1:+Y/2:+Y phase [deg]\n1,20.5,-90\n2,-3.25,180\n",
+    "# averages = 10\nf,1:+Y/2:+Y coherence\n[Hz],\n1,0.5\n2,0.99\n",
+];
 
 fn read_all(bytes: &[u8]) {
     let options = ReadOptions::default();
@@ -21,6 +29,10 @@ fn read_all(bytes: &[u8]) {
     let _ = set(read_csv_from(bytes, name, &options));
     let _ = set(read_npz_from(Cursor::new(bytes), name, &options));
     let _ = set(read_mat_from(Cursor::new(bytes), name, &options));
+    let _ = ModalModel::from_universal(bytes, name).map(|modes| {
+        let points = modes.points();
+        modes.receptance(points[0], points[0], &[0.0, 10.0])
+    });
 }
 
 /// Good files that the damage starts from.
@@ -46,6 +58,16 @@ fn seeds() -> Vec<Vec<u8>> {
     ] {
         seeds.push(std::fs::read(uff.join(name)).unwrap());
     }
+    // twice, since they are small and their reader is young
+    for name in ["modes.unv", "complex_modes.unv"].repeat(2) {
+        seeds.push(std::fs::read(uff.join(name)).unwrap());
+    }
+    seeds.extend(
+        TABLES
+            .repeat(2)
+            .iter()
+            .map(|table| table.as_bytes().to_vec()),
+    );
     seeds
 }
 
@@ -75,6 +97,12 @@ fn damage() -> impl Strategy<Value = Damage> {
         b"'descr': '|O'",
         b"\0\0\0\0",
         b"1:Y/2:Y real",
+        b" complex",
+        b"[dB re 1 m/N]",
+        b"+1e5j",
+        b"\nHz,m/N\n",
+        b"    55\n",
+        b"         2         6\n",
     ];
     prop_oneof![
         (any::<usize>(), any::<u8>()).prop_map(|(at, byte)| Damage::Set(at, byte)),
@@ -113,7 +141,8 @@ fn apply(bytes: &mut Vec<u8>, damage: &Damage) {
 fn damaged_files_of_every_format_are_errors_and_no_panics() {
     let seeds = seeds();
     let config = ProptestConfig {
-        cases: 3000,
+        // PROPTEST_CASES makes a longer run
+        cases: ProptestConfig::default().cases.max(4000),
         failure_persistence: None,
         ..ProptestConfig::default()
     };

@@ -94,6 +94,111 @@ fn degrees_and_radians_are_told_apart() {
 }
 
 #[test]
+fn complex_columns_decibels_and_a_row_of_units_are_the_same_numbers() {
+    let plain = "f,1:Y/2:Y real [mm/s^2/N],1:Y/2:Y imaginary\n1,3,-4\n2,0.5,2\n";
+    let expected = read(plain).unwrap();
+    let db = |x: f64, y: f64| (20.0 * x.hypot(y).log10(), y.atan2(x).to_degrees());
+    let [(one, first), (two, second)] = [db(3.0, -4.0), db(0.5, 2.0)];
+    for dress in [
+        "f,1:Y/2:Y complex [mm/s^2/N]\n1,3-4j\n2,(0.5+2e0j)\n".to_owned(),
+        "f;1:Y/2:Y complex [mm/s^2/N]\n1;3-4i\n2;0,5+2i\n".to_owned(),
+        "f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,mm/s^2/N,mm/s^2/N\n1,3,-4\n2,0.5,2\n".to_owned(),
+        "f\t1:Y/2:Y real\t1:Y/2:Y imaginary\n[Hz]\t[mm/s^2/N]\t-\n1\t3\t-4\n2\t0.5\t2\n".to_owned(),
+        format!(
+            "f,1:Y/2:Y magnitude [dB re 1 mm/s^2/N],1:Y/2:Y phase [deg]\n1,{one},{first}\n2,{two},{second}\n"
+        ),
+        format!(
+            "f,1:Y/2:Y magnitude,1:Y/2:Y phase\nHz,dB re 1e-3 m/s^2/N,deg\n\n# now numbers\n1,{one},{first}\n2,{two},{second}\n"
+        ),
+        format!(
+            "# unit = dB (re 1e-6 m/s^2/N)\nf,1:Y/2:Y magnitude,1:Y/2:Y phase [deg]\n1,{},{first}\n2,{},{second}\n",
+            one + 60.0,
+            two + 60.0
+        ),
+    ] {
+        let found = read(&dress).unwrap_or_else(|error| panic!("{dress}: {error}"));
+        let pairs = found.functions()[0]
+            .receptance()
+            .iter()
+            .zip(expected.functions()[0].receptance());
+        for (found, expected) in pairs {
+            assert!(
+                (found - expected).norm() < 1e-13 * expected.norm(),
+                "{dress}: {found} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn coherences_may_be_in_a_table_of_their_own() {
+    let functions = "f,1:Y/2:Y complex [m/N],3:Y/2:Y complex [m/N]\n1,3-4j,1j\n2,1+j,2\n";
+    let coherences =
+        "# averages = 10\nf,3:Y/2:Y coherence,1:Y/2:Y coherence\nHz,,-\n1,0.9,0.5\n2,0.8,1\n";
+    let alone = read(coherences).unwrap();
+    assert!(alone.functions().is_empty());
+    let refused = alone.clone().into_set().unwrap_err().to_string();
+    assert!(refused.contains("found coherences alone"), "{refused}");
+    let both = read(functions).unwrap().with_coherences_of(alone).unwrap();
+    let set = both.into_set().unwrap();
+    assert_eq!(
+        set.coherence(dof("1:Y"), dof("2:Y")),
+        Some([0.5, 1.0].as_slice())
+    );
+    // (1 − 0.9)/(10 · 0.9)
+    let variance = set.relative_variance(dof("3:Y"), dof("2:Y")).unwrap()[0];
+    assert!((variance - 0.1 / 9.0).abs() < 1e-15, "{variance}");
+    let no_coherence = read(functions).unwrap();
+    let refused = read(functions)
+        .unwrap()
+        .with_coherences_of(no_coherence)
+        .unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .contains("memory.csv: found no coherence"),
+        "{refused}"
+    );
+    let other = read("# averages = 5\n".to_owned() + functions).unwrap();
+    let refused = other
+        .with_coherences_of(read(coherences).unwrap())
+        .unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .contains("states 10 averages, and the file before it 5"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn files_with_a_reference_each_make_one_set() {
+    let of = |reference: &str, lines: &str| {
+        read(format!("f,1:Y/{reference} complex [m/N]\n{lines}")).unwrap()
+    };
+    let [first, second] = [of("2:Y", "1,1j\n2,2j\n"), of("3:Y", "1,3j\n2,4j\n")];
+    let set = FrfReading::joined(vec![first.clone(), second])
+        .unwrap()
+        .into_set()
+        .unwrap();
+    assert_eq!(set.functions().len(), 2);
+    assert_eq!(set.receptance(dof("1:Y"), dof("3:Y")).unwrap()[1].im, 4.0);
+    for (other, said) in [
+        (
+            first.clone(),
+            "has the function 1:+Y / 2:+Y, which memory.csv has as well",
+        ),
+        (of("3:Y", "1,3j\n2.5,4j\n"), "have different frequencies"),
+        (of("3:Y", "1,3j\n"), "have different frequencies"),
+    ] {
+        let refused = FrfReading::joined(vec![first.clone(), other])
+            .unwrap_err()
+            .to_string();
+        assert!(refused.contains(said), "{refused}");
+    }
+}
+
+#[test]
 fn every_fault_is_located_and_named() {
     let header = |columns: &str| format!("frequency [Hz],{columns}\n1,2,3\n");
     #[rustfmt::skip]
@@ -111,6 +216,23 @@ fn every_fault_is_located_and_named() {
         (header("1:Y/2:Y real [m/N],1:Y/2:Y phase [deg]"), 1, "real part and phase"),
         (header("1:Y/2:Y magnitude [m/N],1:Y/2:Y phase"), 1, "column 3: found a phase in \"no unit\""),
         (header("1:Y/2:Y real [m/N],1:Y/2:Y real [m/N]"), 1, "a second real part"),
+        (header("1:Y/2:Y complex [m/N],1:Y/2:Y real"), 1, "found real part and complex value"),
+        (header("1:Y/2:Y magnitude [dB],1:Y/2:Y phase [deg]"), 1, "the unit \"dB\", expected decibels with what 0 dB is"),
+        (header("1:Y/2:Y magnitude [dB re 1],1:Y/2:Y phase [deg]"), 1, "what 0 dB is"),
+        (header("1:Y/2:Y magnitude [dB re 1 V/N],1:Y/2:Y phase [deg]"), 1, "the unit \"V/N\""),
+        (header("1:Y/2:Y real [dB re 1 m/N],1:Y/2:Y imaginary"), 1, "real and imaginary parts in \"dB re 1 m/N\""),
+        (header("1:Y/2:Y coherence,3:Y/2:Y real [m/N]"), 1, "found a coherence alone"),
+        ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nkHz,m/N,m/N\n1,2,3\n".to_owned(), 2, "the unit \"kHz\", expected Hz"),
+        ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,m/N\n1,2,3\n".to_owned(), 2, "a row of 2 units, expected 3"),
+        ("f,1:Y/2:Y real [m/N],1:Y/2:Y imaginary\nHz,mm/N,mm/N\n1,2,3\n".to_owned(), 2, "column 2: found the unit \"mm/N\" below a name with the unit \"m/N\""),
+        ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,m/N,mm/N\n1,2,3\n".to_owned(), 1, "\"m/N\" in one column and \"mm/N\""),
+        ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,furlong/N,\n1,2,3\n".to_owned(), 1, "the unit \"furlong/N\""),
+        ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,m/N,m/N\nHz,m/N,m/N\n".to_owned(), 3, "column 1: found \"Hz\""),
+        ("f,1:Y/2:Y complex [m/N]\n1,1+2\n".to_owned(), 2, "column 2: found \"1+2\", expected a number such as 1.2+3.4j"),
+        ("f,1:Y/2:Y complex [m/N]\n1,\n".to_owned(), 2, "column 2: found \"\""),
+        ("f;1:Y/2:Y complex [m/N]\n1;1,5+2.5j\n".to_owned(), 2, "commas and points"),
+        ("f,1:Y/2:Y complex [m/N]\n1,nan+2j\n".to_owned(), 2, ": found value "),
+        ("f,1:Y/2:Y magnitude [dB re 1 m/N],1:Y/2:Y phase [deg]\n1,1e5,0\n".to_owned(), 2, ": found value "),
         (header("1:Y/2:Y real [m/N],1:Y/2:Y imaginary [mm/N]"), 1, "\"m/N\" in one column and \"mm/N\""),
         (header("1:Y/2:Y real,1:Y/2:Y imaginary"), 1, "neither a quantity nor a unit"),
         (header("1:Y/2:Y real mobility [m/N],1:Y/2:Y imaginary"), 1, "means receptance"),

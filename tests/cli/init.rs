@@ -21,9 +21,20 @@ fn a_study_is_made_of_the_files_that_are_there() {
             "part a is taken to be a-modes.toml, part b b.uff, the assembly joined.uff",
             "look for CHECK",
             "wrote ./study.toml",
+            "wrote ./bolted-joint.schema.json",
         ],
     );
     let text = bench.text("study.toml");
+    assert!(text.starts_with("#:schema ./bolted-joint.schema.json\n"));
+    let schema = bench.json("bolted-joint.schema.json");
+    assert_eq!(
+        schema["oneOf"][0]["properties"]["method"]["const"],
+        "frf-decoupling"
+    );
+    assert_eq!(
+        bench.done("init --schema").stdout,
+        bench.text("bolted-joint.schema.json")
+    );
     has(
         &text,
         &[
@@ -59,6 +70,7 @@ fn a_study_is_made_of_the_files_that_are_there() {
         &bench.done("init -o -").stdout,
         &["method = \"frf-decoupling\""],
     );
+    assert!(!bench.done("init -o -").stdout.contains("#:schema"));
 }
 
 #[test]

@@ -15,9 +15,9 @@ fn coherence_alone_is_no_function() {
     for lines in ["", "10,0.9\n11,0.95\n"] {
         bench.write("c.csv", format!("{header}{lines}"));
         let expected = [
-            "c.csv, line 1: function 21:+Y / 21:+Y",
-            "found a coherence alone",
-            "real and imaginary part",
+            "c.csv: found coherences alone",
+            "expected functions",
+            "coherence = \"…\" beside frf",
         ];
         bench.refused(IDENTIFY, &expected);
     }

@@ -58,6 +58,10 @@ impl AssemblyModel {
         let relative = complex(&joints.relative);
         let outputs = complex(outputs);
         let by_inputs = self.motion(omega, &complex(inputs))?;
+        if relative.nrows() == 0 {
+            // without joints each structure moves alone
+            return Some(outputs * by_inputs);
+        }
         let by_joints = self.motion(omega, &relative.transpose())?;
         let dynamic = DMatrix::from_fn(
             joints.stiffness.nrows(),

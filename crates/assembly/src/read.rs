@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_joint::JointFile;
-use bolted_joint_study::{StudyError, StudyText, TextKind};
+use bolted_joint_study::{StudyError, StudyText, TextKind, schema};
 
 use crate::error::AssemblyError;
 use crate::model::{AssemblyModel, NamedStructure, PlacedJoint};
@@ -14,6 +14,12 @@ use crate::structure::structure;
 use crate::tables::{AssemblyTables, JointTable};
 
 impl AssemblyModel {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<AssemblyTables>()
+    }
+
     /// Whether a text is an assembly file, be it with mistakes in it.
     #[must_use]
     pub fn is_one(text: &StudyText) -> bool {

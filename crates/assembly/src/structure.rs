@@ -201,7 +201,7 @@ fn of_modes(
     let points = model.points().to_vec();
     let mut all: Vec<_> = model.modes().iter().collect();
     all.sort_by(|one, other| one.frequency_hz.total_cmp(&other.frequency_hz));
-    let mut warnings = Vec::new();
+    let mut warnings = model.warnings().to_vec();
     for mode in &all {
         let size = |part: usize| mode.shape.iter().map(|u| u[part].abs()).fold(0.0, f64::max);
         if size(1) > COMPLEX * size(0) {

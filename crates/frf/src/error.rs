@@ -275,6 +275,46 @@ pub enum FrfError {
         #[source]
         problem: Box<TableProblem>,
     },
+    /// Two files of one measurement have the same function.
+    #[error(
+        "{}: has the function {response} / {reference}, which {} has as well; remove it from one of them, or name one file only",
+        second.display(), first.display()
+    )]
+    InBothFiles {
+        /// Response.
+        response: Dof,
+        /// Reference.
+        reference: Dof,
+        /// The file that was read before.
+        first: PathBuf,
+        /// The file that has it again.
+        second: PathBuf,
+    },
+    /// Two files of one measurement state different averages.
+    #[error(
+        "{}: states {second} averages, and the file before it {first}; state the right number as averages in the study", path.display()
+    )]
+    AveragesDiffer {
+        /// The second file.
+        path: PathBuf,
+        /// Averages of the first one.
+        first: f64,
+        /// Averages of the second one.
+        second: f64,
+    },
+    /// A file that is to give coherences has none.
+    #[error(
+        "{}: found no coherence, expected the coherences of the functions, as columns, arrays or data sets 58 of type 6", path.display()
+    )]
+    NoCoherence {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file of coherences was taken for one of functions.
+    #[error(
+        "found coherences alone, expected functions; name the file as coherence = \"…\" beside frf"
+    )]
+    OnlyCoherences,
     /// The functions of a file do not make a set.
     #[error("{}: {source}", path.display())]
     InFile {

@@ -46,6 +46,6 @@ pub use shown::shown;
 pub use summary::{FileFormat, FileSummary, StatedBy, UnitStatement};
 pub use table_problem::TableProblem;
 pub use uff::{
-    ByteOrder, UffProblem, UnitFactorError, UnitSystem, read_uff58, read_uff58_from, write_uff58,
-    write_uff58_to, write_uff58b, write_uff58b_to,
+    ByteOrder, UffProblem, UnitFactorError, UnitSystem, begins_with_shapes, read_uff58,
+    read_uff58_from, write_uff58, write_uff58_to, write_uff58b, write_uff58b_to,
 };

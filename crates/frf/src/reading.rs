@@ -1,6 +1,6 @@
 //! What was read from a file of functions, whatever its format.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use super::summary::{FileSummary, StatedBy, Statements, coherence_noise};
@@ -31,6 +31,8 @@ pub struct FrfReading {
     /// The number of data sets that are neither functions (58) nor units (164).
     pub skipped_datasets: usize,
     pub(super) statements: Statements,
+    /// What was found in which array of a file of arrays.
+    pub(super) taken: Vec<(&'static str, String)>,
 }
 
 impl FrfReading {
@@ -38,6 +40,12 @@ impl FrfReading {
     #[must_use]
     pub fn functions(&self) -> &[Frf] {
         &self.functions
+    }
+
+    /// What was found in which array of a file of arrays: such as functions in `H`; nothing for other files.
+    #[must_use]
+    pub fn taken(&self) -> &[(&'static str, String)] {
+        &self.taken
     }
 
     /// The number of averages behind the functions, where the caller or the file states it.
@@ -86,6 +94,9 @@ impl FrfReading {
             true => Err(FrfError::NoneSelected {
                 present: self.not_selected.iter().copied().collect(),
             }),
+            false if self.functions.is_empty() && !self.coherences.is_empty() => {
+                Err(FrfError::OnlyCoherences)
+            }
             false => FrfSet::new(self.functions),
         };
         set.and_then(|set| set.with_coherences(self.coherences, averages))
@@ -94,5 +105,82 @@ impl FrfReading {
                 path: self.path,
                 source: Box::new(source),
             })
+    }
+
+    /// The functions of several files as those of one, such as files with one reference each.
+    ///
+    /// # Errors
+    /// [`FrfError::NoFunctions`] without a file, [`FrfError::InBothFiles`], [`FrfError::AveragesDiffer`], or
+    /// [`FrfError::InFile`] around [`FrfError::DifferingFrequencyAxes`] or [`FrfError::DifferingLineCounts`].
+    pub fn joined(readings: Vec<Self>) -> Result<Self, FrfError> {
+        let mut owners: BTreeMap<(Dof, Dof), PathBuf> = BTreeMap::new();
+        let mut readings = readings.into_iter();
+        let mut all = readings.next().ok_or(FrfError::NoFunctions)?;
+        let pairs = |reading: &Self| -> Vec<(Dof, Dof)> {
+            let functions = reading.functions.iter();
+            functions
+                .map(|own| (own.response(), own.reference()))
+                .collect()
+        };
+        owners.extend(pairs(&all).into_iter().map(|pair| (pair, all.path.clone())));
+        for next in readings {
+            for pair in pairs(&next) {
+                if let Some(first) = owners.insert(pair, next.path.clone()) {
+                    return Err(FrfError::InBothFiles {
+                        response: pair.0,
+                        reference: pair.1,
+                        first,
+                        second: next.path,
+                    });
+                }
+            }
+            // one function of each file is enough here; a set looks at all
+            if let (Some(first), Some(second)) = (all.functions.first(), next.functions.first()) {
+                FrfSet::new(vec![first.clone(), second.clone()]).map_err(|source| {
+                    FrfError::InFile {
+                        path: next.path.clone(),
+                        source: Box::new(source),
+                    }
+                })?;
+            }
+            all.agree_on_averages(&next)?;
+            all.functions.extend(next.functions);
+            all.coherences.extend(next.coherences);
+            all.not_selected.extend(next.not_selected);
+            all.skipped_functions.extend(next.skipped_functions);
+            all.skipped_datasets += next.skipped_datasets;
+            all.statements.extend(next.statements);
+        }
+        Ok(all)
+    }
+
+    /// The same functions with the coherences of another file; functions that it has as well stay out.
+    ///
+    /// # Errors
+    /// [`FrfError::NoCoherence`], [`FrfError::AveragesDiffer`].
+    pub fn with_coherences_of(mut self, other: Self) -> Result<Self, FrfError> {
+        if other.coherences.is_empty() {
+            return Err(FrfError::NoCoherence { path: other.path });
+        }
+        self.agree_on_averages(&other)?;
+        self.coherences.extend(other.coherences);
+        Ok(self)
+    }
+
+    /// Takes the averages of another file where this one states none.
+    fn agree_on_averages(&mut self, other: &Self) -> Result<(), FrfError> {
+        match (self.averages, other.averages) {
+            (Some((first, _)), Some((second, _))) if first != second => {
+                Err(FrfError::AveragesDiffer {
+                    path: other.path.clone(),
+                    first,
+                    second,
+                })
+            }
+            (first, second) => {
+                self.averages = first.or(second);
+                Ok(())
+            }
+        }
     }
 }

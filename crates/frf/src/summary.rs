@@ -120,6 +120,29 @@ impl Statements {
         add(&mut self.units, units);
     }
 
+    /// Takes in that a coherence alone is there, which has neither quantity nor unit.
+    pub(super) fn add_coherence(&mut self, format: FileFormat) {
+        add(&mut self.formats, format);
+    }
+
+    /// Takes in those about the functions of another file.
+    pub(super) fn extend(&mut self, other: Self) {
+        let Self {
+            formats,
+            quantities,
+            units,
+            assumed_units,
+        } = other;
+        formats
+            .into_iter()
+            .for_each(|own| add(&mut self.formats, own));
+        quantities
+            .into_iter()
+            .for_each(|own| add(&mut self.quantities, own));
+        units.into_iter().for_each(|own| add(&mut self.units, own));
+        self.assumed_units |= assumed_units;
+    }
+
     /// Whether somebody states the units of every function.
     pub(super) fn have_units(&self) -> bool {
         !self.assumed_units

@@ -9,7 +9,7 @@ use super::bands::{BandOrigin, UsedBands};
 use super::error::IdentifyError;
 use super::from_modes::FromModes;
 use super::lines_estimate::LinesEstimate;
-use super::study::{Source, Study, Substructure};
+use super::study::{FrfFile, Source, Study, Substructure};
 use super::watch::Watch;
 
 /// Provenance of each bolt's joint that is identified from this study.
@@ -20,50 +20,45 @@ pub(super) fn of(
     watch: &dyn Watch,
 ) -> Result<Vec<Provenance>, IdentifyError> {
     let folder = study.path.parent().unwrap_or(Path::new(""));
-    let file_of = |substructure: &Substructure| match substructure {
-        Substructure::Measured { source, .. } => Some(match source {
-            Source::Frf { file, .. } => file.path.clone(),
-            Source::Modal(path) => path.clone(),
-        }),
-        Substructure::Beam { .. } | Substructure::Ground { .. } => None,
+    let files_of = |substructure: &Substructure| match substructure {
+        Substructure::Measured { source, .. } => match source {
+            Source::Frf { file, .. } => file.files().cloned().collect(),
+            Source::Modal(path) => vec![path.clone()],
+        },
+        Substructure::Beam { .. } | Substructure::Ground { .. } => Vec::new(),
     };
     let modes_of = |substructure: &Substructure| match substructure {
         Substructure::Measured {
             source: Source::Frf { modes, .. },
             ..
-        } => modes.clone(),
-        _ => None,
+        } => modes.iter().cloned().collect(),
+        _ => Vec::new(),
     };
-    let mut named = vec![
-        ("study", Some(study.path.clone())),
-        ("substructure a", file_of(&study.a)),
-        ("substructure a, modes", modes_of(&study.a)),
-        ("substructure b", file_of(&study.b)),
-        ("substructure b, modes", modes_of(&study.b)),
-        ("assembly", Some(study.assembly.path.clone())),
-    ];
-    for further in &study.further {
-        let its_own = |role, path: Option<PathBuf>, named: &[(&str, Option<PathBuf>)]| {
-            let known = named.contains(&(role, path.clone()));
-            (!known).then_some((role, path))
-        };
-        for (role, path) in [
-            ("substructure a", file_of(&further.a)),
-            ("substructure a, modes", modes_of(&further.a)),
-            ("substructure b", file_of(&further.b)),
-            ("substructure b, modes", modes_of(&further.b)),
-            ("assembly", Some(further.file.path.clone())),
-        ] {
-            let entry = its_own(role, path, &named);
-            named.extend(entry);
+    let of_assembly = |a: &Substructure, b: &Substructure, file: &FrfFile| {
+        [
+            ("substructure a", files_of(a)),
+            ("substructure a, modes", modes_of(a)),
+            ("substructure b", files_of(b)),
+            ("substructure b, modes", modes_of(b)),
+            ("assembly", file.files().cloned().collect()),
+        ]
+    };
+    let further = study.further.iter();
+    let further = further.map(|own| of_assembly(&own.a, &own.b, &own.file));
+    let first = of_assembly(&study.a, &study.b, &study.assembly);
+    let mut named = vec![("study", study.path.clone())];
+    for (role, path) in std::iter::once(first).chain(further).flatten().flat_map(
+        |(role, paths): (&str, Vec<PathBuf>)| paths.into_iter().map(move |path| (role, path)),
+    ) {
+        if !named.contains(&(role, path.clone())) {
+            named.push((role, path));
         }
     }
     let repeats = study.further.iter().flat_map(|further| &further.repeats);
-    let repeats = study.repeats.iter().chain(repeats);
-    named.extend(repeats.map(|file| ("assembly, repeated", Some(file.path.clone()))));
+    let repeats = study.repeats.iter().chain(repeats).flat_map(FrfFile::files);
+    named.extend(repeats.map(|path| ("assembly, repeated", path.clone())));
     let inputs = named
         .into_iter()
-        .filter_map(|(role, path)| Some((role, path?)))
         .map(|(role, path)| input_file(role, &path, folder, |read, of| watch.read(&path, read, of)))
         .collect::<Result<Vec<_>, _>>()?;
     let method = Method::FrfDecoupling;

@@ -45,7 +45,18 @@ fn shown(reading: FrfReading) -> Result<Shown, ShowError> {
         .map(|own| own.kind)
         .collect();
     let others = reading.skipped_datasets;
+    let taken = reading.taken().iter();
+    let taken: Vec<String> = taken
+        .map(|(what, name)| format!("{what} from {name}"))
+        .collect();
+    if !taken.is_empty() {
+        shown.fact("arrays", taken.join(", "));
+    }
     let units_are_stated = reading.units_are_stated();
+    if reading.functions().is_empty() && !reading.coherences.is_empty() {
+        coherences_alone(&reading, &mut shown);
+        return Ok(shown);
+    }
     let set = reading.into_set()?;
     between(&set, &mut shown);
     quantity_and_units(&summary, &set, &mut shown);
@@ -77,6 +88,36 @@ fn shown(reading: FrfReading) -> Result<Shown, ShowError> {
     }
     shown.pictures = pictures(&set);
     Ok(shown)
+}
+
+/// A file that belongs beside one of functions.
+fn coherences_alone(reading: &FrfReading, shown: &mut Shown) {
+    let own = &reading.coherences;
+    let pairs = own
+        .iter()
+        .map(|own| format!("{}/{}", own.response, own.reference));
+    let pairs = some(pairs, LISTED);
+    shown.fact(
+        "coherences",
+        format!("{}, and no function: {pairs}", own.len()),
+    );
+    if let [first, last] = [own[0].frequency_hz.first(), own[0].frequency_hz.last()]
+        && let (Some(first), Some(last)) = (first, last)
+    {
+        let lines = counted(own[0].frequency_hz.len(), "line");
+        let ends = format!("{} to {} Hz", short(*first, 6), short(*last, 6));
+        shown.fact("lines", format!("{lines}, {ends}"));
+    }
+    let averages = reading.averages();
+    shown.fact(
+        "averages",
+        averages.map_or_else(|| "not stated".to_owned(), |averages| averages.to_string()),
+    );
+    shown.fact(
+        "belongs",
+        "beside the functions of a study: coherence = \"…\" beside frf",
+    );
+    shown.detail("coherences", own.len());
 }
 
 fn between(set: &FrfSet, shown: &mut Shown) {

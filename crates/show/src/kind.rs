@@ -6,7 +6,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use bolted_joint_files::text_file;
-use bolted_joint_frf::Container;
+use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
 
@@ -73,7 +73,10 @@ impl FileKind {
         if let Some(container) = container
             && (container != Container::Table || is_named_table)
         {
-            return Self::Functions(container);
+            return match container {
+                Container::Universal if begins_with_shapes(path) => Self::Modes,
+                container => Self::Functions(container),
+            };
         }
         let kind = text(path).and_then(|text| StudyText::new(text, path).kind());
         match (kind, container) {

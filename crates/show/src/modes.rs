@@ -21,6 +21,10 @@ pub(crate) fn shown(path: &Path) -> Result<Shown, ShowError> {
     let model = ModalModel::read(path)?;
     let mut shown = Shown::of("modes of a structure");
     let (points, modes) = (model.points(), model.modes());
+    for (label, line) in model.understood() {
+        shown.fact(label, line.clone());
+    }
+    shown.warnings.extend_from_slice(model.warnings());
     shown.fact(
         "points",
         format!("{}: {}", points.len(), some(points, LISTED)),
@@ -72,10 +76,15 @@ pub(crate) fn shown(path: &Path) -> Result<Shown, ShowError> {
 /// Functions for a load at each point, over the modes and somewhat more.
 fn pictures(model: &ModalModel) -> Result<Vec<ShownPicture>, ShowError> {
     let natural = model.modes().iter().map(|mode| mode.frequency_hz);
+    let natural = natural.filter(|&frequency_hz| frequency_hz > 0.0);
     let (low, high) = natural.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), own| {
         (low.min(own), high.max(own))
     });
-    let (from, to) = (0.5 * low, 1.25 * high);
+    let (from, to) = match high > 0.0 {
+        true => (0.5 * low, 1.25 * high),
+        // of a rigid body alone any lines tell the same
+        false => (1.0, 100.0),
+    };
     let frequency_hz: Vec<f64> = (0..LINES)
         .map(|line| from + (to - from) * line as f64 / (LINES - 1) as f64)
         .collect();

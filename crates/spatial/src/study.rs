@@ -1,12 +1,12 @@
 //! A study of method `frf-space`, checked, with its functions read.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr as _;
 
-use bolted_joint_frf::{Direction, Dof, FrfSet, ReadOptions, Sign, read_frfs};
+use bolted_joint_frf::{Direction, Dof, FrfReading, FrfSet, ReadOptions, Sign, read_frfs};
 use bolted_joint_joint::InputFile;
 use bolted_joint_space::{Axes, JointModel, Mirrors, Parametrisation};
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{LineChoice, Paths, StudyError, StudyText, schema};
 use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
 use nalgebra::{Matrix3, Vector3};
 
@@ -15,8 +15,7 @@ use crate::links::Links;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
 use crate::tables::{
-    BudgetTable, DeviationsTable, JointTable, ModelName, NoBudget, NoiseTable, SensorTable,
-    StudyFile,
+    BudgetTable, DeviationsTable, JointTable, ModelName, NoiseTable, SensorTable, StudyFile,
 };
 
 /// Frequencies that are the same, in parts.
@@ -53,6 +52,12 @@ pub(crate) const DIRECTIONS: [Direction; MOTIONS] = [
 ];
 
 impl SpatialStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// A study from its text, with the files that it names.
     ///
     /// # Errors
@@ -104,13 +109,20 @@ impl Reader<'_> {
     pub(crate) fn functions(
         &self,
         key: &str,
-        path: &Path,
-        [from_hz, to_hz]: [f64; 2],
+        paths: &Paths,
+        lines: &LineChoice,
     ) -> Result<FrfSet, StudyError> {
-        let path = self.study.resolved(path);
-        let reading = read_frfs(&path, &ReadOptions::default()).map_err(StudyError::of_file)?;
-        let set = reading.into_set().map_err(StudyError::of_file)?;
+        let readings = paths
+            .iter()
+            .map(|path| read_frfs(self.study.resolved(path), &ReadOptions::default()))
+            .collect::<Result<_, _>>();
+        let reading = readings.and_then(FrfReading::joined);
+        let set = reading
+            .and_then(FrfReading::into_set)
+            .map_err(StudyError::of_file)?;
+        let [from_hz, to_hz] = lines.range_hz;
         set.restricted_to(from_hz, to_hz)
+            .and_then(|set| set.thinned(&lines.bands_hz, lines.every))
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
     }
 
@@ -342,7 +354,7 @@ impl Reader<'_> {
             rotation,
             gain,
         } = match table {
-            BudgetTable::Word(NoBudget::None) => return Ok(None),
+            BudgetTable::None => return Ok(None),
             BudgetTable::Deviations(own) => *own,
         };
         let value = |key: &str, given: Option<f64>, typical: f64| {

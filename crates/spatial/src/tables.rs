@@ -1,8 +1,11 @@
 //! The tables of a study of method `frf-space`, as they are written.
 
+use std::fmt;
 use std::path::PathBuf;
 
-use bolted_joint_study::{FrequencyTable, Method, one_or_more_tables};
+use bolted_joint_study::{FrequencyTable, Method, Paths, one_or_more_tables};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 #[derive(Deserialize)]
@@ -44,7 +47,7 @@ fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointTable>,
 #[serde(deny_unknown_fields)]
 pub(crate) struct PartTable {
     /// Measured or computed functions.
-    pub(crate) frf: Option<PathBuf>,
+    pub(crate) frf: Option<Paths>,
     /// Modes.
     pub(crate) modal: Option<PathBuf>,
     /// Node whose six motions are those of the interface.
@@ -133,7 +136,7 @@ pub(crate) struct ImpactTable {
 #[serde(deny_unknown_fields)]
 pub(crate) struct AssemblyTable {
     /// Left out while nothing is measured.
-    pub(crate) frf: Option<PathBuf>,
+    pub(crate) frf: Option<Paths>,
     /// Which of the DOFs will be measured; all if left out. Of a plan alone.
     pub(crate) responses: Option<Vec<String>>,
     pub(crate) references: Option<Vec<String>>,
@@ -164,14 +167,35 @@ pub(crate) struct JointTable {
 }
 
 /// A joint file, or matrices.
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "expected the path of a joint file, or a table with stiffness and damping (6 × 6)"
-)]
 pub(crate) enum ExpectedTable {
     File(PathBuf),
     Matrices(Box<MatricesTable>),
+}
+
+/// By hand, as [`BudgetTable`], so that a wrong key of the table is named.
+impl<'de> Deserialize<'de> for ExpectedTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ExpectedVisitor;
+        impl<'de> Visitor<'de> for ExpectedVisitor {
+            type Value = ExpectedTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "the path of a joint file, or a table with stiffness and damping (6 × 6)",
+                )
+            }
+
+            fn visit_str<E: de::Error>(self, path: &str) -> Result<ExpectedTable, E> {
+                Ok(ExpectedTable::File(path.into()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ExpectedTable, A::Error> {
+                let table = MatricesTable::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(ExpectedTable::Matrices(Box::new(table)))
+            }
+        }
+        deserializer.deserialize_any(ExpectedVisitor)
+    }
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -205,20 +229,35 @@ pub(crate) struct NoiseTable {
 }
 
 /// `budget = "none"`, or deviations.
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "expected \"none\" or a table with position, rotation and gain"
-)]
 pub(crate) enum BudgetTable {
-    Word(NoBudget),
+    None,
     Deviations(DeviationsTable),
 }
 
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum NoBudget {
-    None,
+impl<'de> Deserialize<'de> for BudgetTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct BudgetVisitor;
+        impl<'de> Visitor<'de> for BudgetVisitor {
+            type Value = BudgetTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"none\" or a table with position, rotation and gain")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<BudgetTable, E> {
+                match word {
+                    "none" => Ok(BudgetTable::None),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(word), &self)),
+                }
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BudgetTable, A::Error> {
+                DeviationsTable::deserialize(MapAccessDeserializer::new(map))
+                    .map(BudgetTable::Deviations)
+            }
+        }
+        deserializer.deserialize_any(BudgetVisitor)
+    }
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]

@@ -145,11 +145,23 @@ impl StudyText {
         )
     }
 
-    /// The frequencies to use, Hz; where an end is left out, everything there is.
+    /// The frequencies to use, Hz; where an end is left out, everything there is. For methods that use all lines of one band.
     ///
     /// # Errors
-    /// [`StudyError::Value`] for `frequency` if they are none.
+    /// [`StudyError::Value`] for `frequency` if they are none, or more is said than a band.
     pub fn frequency_range_hz(&self, table: &FrequencyTable) -> Result<[f64; 2], StudyError> {
+        for (key, there) in [
+            ("bands", table.bands.is_some()),
+            ("every", table.every.is_some()),
+        ] {
+            let expected = "`from` and `to` only, with this method";
+            self.ensure(
+                !there,
+                format_args!("frequency.{key}"),
+                "a choice of lines",
+                expected,
+            )?;
+        }
         let from = table.from.unwrap_or(f64::MIN_POSITIVE);
         let to = table.to.unwrap_or(f64::MAX);
         let found = match (table.from, table.to) {

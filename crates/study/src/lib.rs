@@ -19,16 +19,21 @@
 mod check;
 mod error;
 mod kind;
+mod lines;
 mod method;
 mod origin;
+mod paths;
+pub mod schema;
 mod stated;
 mod tables;
 mod text;
 
 pub use error::StudyError;
 pub use kind::TextKind;
+pub use lines::LineChoice;
 pub use method::Method;
 pub use origin::{input_file, name_in, provenance};
+pub use paths::Paths;
 pub use stated::{Stated, StatedDeviation};
 pub use tables::{FrequencyTable, OneOrMore, UncertaintyTable, one_or_more_tables};
 pub use text::StudyText;

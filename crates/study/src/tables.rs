@@ -4,17 +4,21 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::de::{self, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// `[frequency]`: the band that is used, Hz.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+/// `[frequency]`: the lines that are used, Hz.
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrequencyTable {
-    /// Its lower end.
+    /// Lower end of the band.
     pub from: Option<f64>,
     /// Its upper end.
     pub to: Option<f64>,
+    /// Several bands in place of one.
+    pub bands: Option<Vec<[f64; 2]>>,
+    /// Every how many lines one is used.
+    pub every: Option<u64>,
 }
 
 /// `[uncertainty]`: how a Monte Carlo simulation draws.
@@ -28,8 +32,7 @@ pub struct UncertaintyTable {
 }
 
 /// A number, or a list of numbers.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged, expecting = "expected a number or a list of numbers")]
+#[derive(Clone, Debug)]
 pub enum OneOrMore {
     /// A number.
     One(f64),
@@ -45,6 +48,37 @@ impl OneOrMore {
             Self::One(number) => vec![*number],
             Self::More(numbers) => numbers.clone(),
         }
+    }
+}
+
+/// By hand, since an untagged enum would not say which number of a list is wrong.
+impl<'de> Deserialize<'de> for OneOrMore {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumbersVisitor;
+        impl<'de> Visitor<'de> for NumbersVisitor {
+            type Value = OneOrMore;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a number or a list of numbers")
+            }
+
+            fn visit_f64<E: de::Error>(self, number: f64) -> Result<OneOrMore, E> {
+                Ok(OneOrMore::One(number))
+            }
+
+            fn visit_i64<E: de::Error>(self, number: i64) -> Result<OneOrMore, E> {
+                self.visit_f64(number as f64)
+            }
+
+            fn visit_u64<E: de::Error>(self, number: u64) -> Result<OneOrMore, E> {
+                self.visit_f64(number as f64)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<OneOrMore, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(sequence)).map(OneOrMore::More)
+            }
+        }
+        deserializer.deserialize_any(NumbersVisitor)
     }
 }
 

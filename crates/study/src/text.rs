@@ -128,7 +128,7 @@ mod tests {
         let refused = of("fromm = 5");
         assert!(
             refused
-                .ends_with("unknown field `fromm`, expected `from` or `to`; did you mean `from`?"),
+                .ends_with("unknown field `fromm`, expected one of `from`, `to`, `bands`, `every`; did you mean `from`?"),
             "{refused}"
         );
         assert!(!of("stiffness = 5").contains("did you mean"));

@@ -10,7 +10,7 @@ use libfuzzer_sys::fuzz_target;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 14] = [
     "frequency",
     "f",
     "frf",
@@ -22,6 +22,8 @@ const NAMES: [&str; 12] = [
     "quantity",
     "unit",
     "coherence",
+    "COH",
+    "a name of its own",
     "averages",
 ];
 

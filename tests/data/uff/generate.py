@@ -97,5 +97,27 @@ def main():
     ])
 
 
+def modes():
+    """A beam's first two bending shapes at three nodes, with rotations; real ones, and the same as complex ones with modal A."""
+    common = {"type": 55, "node_nums": np.array([1, 2, 3]), "load_case": 0, "id1": "shapes"}
+    zero = np.zeros(3)
+    real, turned = [units(5, "mm, mN", 1e3, 1e3)], [units(1, "SI", 1.0, 1.0)]
+    for number, (hz, zeta, y, rz) in enumerate([(12.5, 0.01, [1.0, -0.5, 1.0], [0.1, 0.0, -0.1]), (40.0, 0.005, [1.0, 0.0, -1.0], [0.2, -0.1, 0.2])], 1):
+        y, rz, omega = np.array(y), np.array(rz), 2 * np.pi * hz
+        real.append({
+            **common, "analysis_type": 2, "data_ch": 3, "spec_data_type": 8, "data_type": 2, "n_data_per_node": 6, "mode_n": number,
+            "r1": zero, "r2": y, "r3": zero, "r4": zero, "r5": zero, "r6": rz, "freq": hz, "modal_m": 2.0,
+            "modal_damp_vis": zeta, "modal_damp_his": 0.0,
+        })
+        turned.append({
+            **common, "analysis_type": 3, "data_ch": 2, "spec_data_type": 8, "data_type": 5, "n_data_per_node": 3, "mode_n": number,
+            "r1": 0j * zero, "r2": 1j * y, "r3": 0j * zero, "eig": -zeta * omega + 1j * omega * np.sqrt(1 - zeta**2),
+            "modal_a": -2j * omega, "modal_b": 1 + 0j,
+        })
+    write("modes.unv", real)
+    write("complex_modes.unv", turned)
+
+
 if __name__ == "__main__":
     main()
+    modes()

@@ -8,18 +8,50 @@ use super::members::{Members, by_name, quantity};
 use super::{Array, ArrayFile};
 use crate::{FrfError, FrfReading, ReadOptions, TableProblem};
 
-const FREQUENCY: &[&str] = &["frequency", "frequency_hz", "freq", "freqs", "f"];
+/// Names of frequencies (Hz). Names of two letters or more are the same in capitals.
+const FREQUENCY: &[&str] = &[
+    "frequency",
+    "frequencies",
+    "frequency_hz",
+    "freq",
+    "freqs",
+    "freq_hz",
+    "f",
+    "f_hz",
+    "hz",
+];
 const MATRIX: &[&str] = &[
     "frf",
-    "FRF",
+    "frfs",
     "H",
+    "H1",
+    "H2",
+    "Hv",
     "Y",
     "receptance",
     "mobility",
     "accelerance",
+    "tf",
+    "transfer_function",
 ];
-const RESPONSE: &[&str] = &["response", "responses"];
-const REFERENCE: &[&str] = &["reference", "references"];
+const RESPONSE: &[&str] = &[
+    "response",
+    "responses",
+    "response_dof",
+    "response_dofs",
+    "output",
+    "outputs",
+];
+const REFERENCE: &[&str] = &[
+    "reference",
+    "references",
+    "reference_dof",
+    "reference_dofs",
+    "excitation",
+    "input",
+    "inputs",
+];
+const COHERENCE: &[&str] = &["coherence", "coh", "gamma_squared", "gamma2"];
 
 /// More functions than any test has: a thousand responses to a thousand references.
 const MOST_FUNCTIONS: usize = 1 << 20;
@@ -45,10 +77,11 @@ fn functions_of<F: ArrayFile>(
 ) -> Result<FrfReading, TableProblem> {
     let mut members = Members(file);
     let frequency = members.required(FREQUENCY, "frequency (Hz)")?;
-    let matrix = members.required(MATRIX, "frf, the matrix of functions")?;
+    let matrix = members.matrix(MATRIX, COHERENCE)?;
     let response = members.required(RESPONSE, "response, degrees of freedom such as \"11:+Y\"")?;
     let reference =
         members.required(REFERENCE, "reference, degrees of freedom such as \"2:+Y\"")?;
+    let coherence = members.find(COHERENCE)?;
     let frequency_hz = members.frequencies(&frequency)?;
     let responses = members.dofs(&response)?;
     let references = members.dofs(&reference)?;
@@ -71,10 +104,11 @@ fn functions_of<F: ArrayFile>(
         .transpose()?;
     let unit = members.text("unit")?;
     let averages = members.averages()?;
-    let array = members.numbers(&matrix)?;
+    let of_matrix = matrix.as_ref().or(coherence.as_ref());
+    let of_matrix = of_matrix.cloned().unwrap_or_default();
     // Before anything is reserved for them: as many functions as the names make are in the file, and not too many, since a
     // swollen matrix takes next to no room there.
-    let matrix_place = place(&matrix, &array)?;
+    let matrix_place = place(&of_matrix, &members.numbers(&of_matrix)?)?;
     if responses.len().saturating_mul(references.len()) > MOST_FUNCTIONS {
         let (responses, references) = (responses.len(), references.len());
         return Err(TableProblem::whole(
@@ -97,9 +131,26 @@ fn functions_of<F: ArrayFile>(
         frequency_hz,
         options,
     };
-    let stated = functions.stated(quantity.or_else(|| by_name(&matrix)), unit.as_deref())?;
-    let lines = functions.gather(array, &matrix_place)?;
-    let coherence = match members.find(&["coherence"])? {
+    let mut taken = vec![
+        ("frequencies", frequency),
+        ("responses", response),
+        ("references", reference),
+    ];
+    let (stated, lines) = match &matrix {
+        Some(matrix) => {
+            taken.push(("functions", matrix.clone()));
+            let quantity = quantity.or_else(|| by_name(&matrix.to_lowercase()));
+            let stated = functions.stated(quantity, unit.as_deref())?;
+            (
+                stated,
+                functions.gather(members.numbers(matrix)?, &matrix_place)?,
+            )
+        }
+        // coherences alone, for functions of another file
+        None => (Vec::new(), Vec::new()),
+    };
+    taken.extend(coherence.iter().map(|name| ("coherence", name.clone())));
+    let coherence = match coherence {
         None => None,
         Some(name) => {
             let array = members.numbers(&name)?;
@@ -107,5 +158,7 @@ fn functions_of<F: ArrayFile>(
             Some(functions.gather(array, &coherence_place)?)
         }
     };
-    functions.reading(F::FORMAT, path, &stated, lines, coherence, averages)
+    let mut reading = functions.reading(F::FORMAT, path, &stated, lines, coherence, averages)?;
+    reading.taken = taken;
+    Ok(reading)
 }

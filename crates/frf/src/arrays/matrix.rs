@@ -160,7 +160,11 @@ impl Functions<'_> {
             skipped_functions: Vec::new(),
             skipped_datasets: 0,
             statements: Statements::default(),
+            taken: Vec::new(),
         };
+        if stated.is_empty() {
+            reading.statements.add_coherence(format);
+        }
         for ((&pair, stated), values) in self.pairs.iter().zip(stated).zip(lines) {
             let Some(stated) = stated else {
                 reading.not_selected.insert(pair);

@@ -10,16 +10,61 @@ use crate::{Dof, Quantity, TableProblem};
 pub(super) struct Members<'file, F>(pub(super) &'file mut F);
 
 impl<F: ArrayFile> Members<'_, F> {
-    /// The one array that has one of these names.
+    /// The one array that has one of these names; those of two letters or more may be in capitals.
     pub(super) fn find(&self, wanted: &[&str]) -> Result<Option<String>, TableProblem> {
+        let is_one = |name: &str, known: &str| {
+            name == known || known.len() > 1 && name.eq_ignore_ascii_case(known)
+        };
         let names = self.0.names().iter();
-        let mut found = names.filter(|name| wanted.contains(&name.as_str()));
-        match (found.next(), found.next()) {
-            (Some(first), Some(second)) => Err(TableProblem::whole(
-                format_args!("both {first} and {second}"),
+        let found: Vec<&str> = names
+            .filter(|name| wanted.iter().any(|known| is_one(name, known)))
+            .map(String::as_str)
+            .collect();
+        match found.as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some((*one).to_owned())),
+            [others @ .., last] => Err(TableProblem::whole(
+                format_args!("both {} and {last}", others.join(", ")),
                 "one of them; save only the one that is meant",
             )),
-            (first, _) => Ok(first.cloned()),
+        }
+    }
+
+    /// The matrix of functions: the array of one of these names, else the only complex one with more than one axis; none where
+    /// only a coherence is there.
+    pub(super) fn matrix(
+        &mut self,
+        named: &[&str],
+        coherence: &[&str],
+    ) -> Result<Option<String>, TableProblem> {
+        if let Some(name) = self.find(named)? {
+            return Ok(Some(name));
+        }
+        let mut complex = Vec::new();
+        for name in self.0.names().to_vec() {
+            // an array that cannot be read is none of the candidates
+            if let Ok(array) = self.0.array(&name)
+                && array.kind() == Kind::Complex
+                && array.shape().iter().filter(|&&length| length > 1).count() > 0
+            {
+                complex.push(name);
+            }
+        }
+        let wanted = "frf, the matrix of functions";
+        match complex.as_slice() {
+            [one] => Ok(Some(one.clone())),
+            [] if self.find(coherence)?.is_some() => Ok(None),
+            [] => self.required(named, wanted).map(Some),
+            several => Err(TableProblem::whole(
+                format_args!(
+                    "several complex arrays, {}",
+                    crate::shown(&several.join(", "))
+                ),
+                format_args!(
+                    "one named frf, the matrix of functions; rename the one that is meant, with {}",
+                    F::SAVE
+                ),
+            )),
         }
     }
 
@@ -34,25 +79,28 @@ impl<F: ArrayFile> Members<'_, F> {
                 names => crate::shown(&names.join(", ")),
             };
             let found = format!("the arrays {there}");
-            TableProblem::whole(found, format_args!("{wanted}; save them with {}", F::SAVE))
+            TableProblem::whole(
+                found,
+                format_args!("{wanted}; save them with {}{}", F::SAVE, F::HINT),
+            )
         })
     }
 
     /// The one text of an array, if it is there.
     pub(super) fn text(&mut self, name: &str) -> Result<Option<String>, TableProblem> {
-        if self.find(&[name])?.is_none() {
+        let Some(found) = self.find(&[name])? else {
             return Ok(None);
-        }
-        let array = self.array(name)?;
+        };
+        let array = self.array(&found)?;
         one(name, &array)?;
         Ok(texts::<F>(name, array, |_| Ok(()))?.pop())
     }
 
     pub(super) fn averages(&mut self) -> Result<Option<f64>, TableProblem> {
-        let name = "averages";
-        if self.find(&[name])?.is_none() {
+        let Some(name) = self.find(&["averages", "n_averages", "averages_n"])? else {
             return Ok(None);
-        }
+        };
+        let name = name.as_str();
         let array = self.array(name)?;
         one(name, &array)?;
         let good = |_, number: f64| match number.is_finite() && number >= 1.0 {

@@ -36,6 +36,8 @@ pub(crate) trait ArrayFile {
     const FORMAT: FileFormat;
     /// How arrays are saved so that they can be read.
     const SAVE: &str;
+    /// What else helps where an array is not found.
+    const HINT: &str = "";
     /// How elements of another type are made into those that can be read.
     const CONVERT: &str;
     /// An array whose elements are still to be read.

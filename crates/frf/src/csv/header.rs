@@ -1,8 +1,9 @@
-//! The header of a table: comments with keys, and the row of column names.
+//! The header of a table: comments with keys, the row of column names, and perhaps a row of units below it.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
+use super::column::{Column, Columns, Part, quantity, split_unit};
+use super::number::Decimal;
 use crate::{Dof, Quantity, TableProblem};
 use bolted_joint_files::text_table::{Cells, separator};
 
@@ -44,83 +45,14 @@ impl Keys {
     }
 }
 
-fn quantity(word: &str) -> Option<Quantity> {
-    match word.to_lowercase().as_str() {
-        "receptance" => Some(Quantity::Receptance),
-        "mobility" => Some(Quantity::Mobility),
-        "accelerance" => Some(Quantity::Accelerance),
-        _ => None,
-    }
+/// The row of column names, as far as it has been read.
+pub(super) struct Names {
+    separator: char,
+    frequency_unit: Option<String>,
+    columns: Vec<Column>,
 }
 
-/// What a column holds of its function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Part {
-    Real,
-    Imaginary,
-    Magnitude,
-    Phase,
-    Coherence,
-}
-
-impl Part {
-    fn from_word(word: &str) -> Option<Self> {
-        Some(match word.to_lowercase().as_str() {
-            "real" | "re" => Self::Real,
-            "imaginary" | "imag" | "im" => Self::Imaginary,
-            "magnitude" | "mag" | "amplitude" | "abs" => Self::Magnitude,
-            "phase" => Self::Phase,
-            "coherence" => Self::Coherence,
-            _ => return None,
-        })
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Real => "real part",
-            Self::Imaginary => "imaginary part",
-            Self::Magnitude => "magnitude",
-            Self::Phase => "phase",
-            Self::Coherence => "coherence",
-        }
-    }
-}
-
-/// The two columns that make a complex value; indices from 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Form {
-    Cartesian {
-        real: usize,
-        imaginary: usize,
-    },
-    Polar {
-        magnitude: usize,
-        phase: usize,
-        radians: f64,
-    },
-}
-
-/// One function of the table.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Columns {
-    pub(super) response: Dof,
-    pub(super) reference: Dof,
-    pub(super) quantity: Option<Quantity>,
-    pub(super) unit: Option<String>,
-    pub(super) form: Form,
-    pub(super) coherence: Option<usize>,
-}
-
-/// One column as its name says.
-struct Column {
-    response: Dof,
-    reference: Dof,
-    part: Part,
-    quantity: Option<Quantity>,
-    unit: Option<String>,
-}
-
-/// The row of column names.
+/// What the header says of the table's columns.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
     pub(super) separator: char,
@@ -129,16 +61,84 @@ pub(super) struct Header {
     pub(super) functions: Vec<Columns>,
 }
 
-impl Header {
+impl Names {
+    /// Takes the row of names apart.
     pub(super) fn read(row: &str) -> Result<Self, TableProblem> {
         let separator = separator(row);
         let mut cells = Cells::separated_by(separator);
         let names = cells.of(row);
-        check_frequency(names.first().copied().unwrap_or_default())?;
+        let frequency_unit = frequency_unit(names.first().copied().unwrap_or_default())?;
+        let columns = names.iter().enumerate().skip(1);
+        Ok(Self {
+            separator,
+            frequency_unit,
+            columns: columns
+                .map(|(index, name)| Column::read(name, index + 1))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Whether the row below the names holds units: its first cell, in the column of frequencies, is a word.
+    pub(super) fn are_units(&self, row: &str) -> bool {
+        let mut cells = Cells::separated_by(self.separator);
+        let first = cells
+            .of(row)
+            .first()
+            .copied()
+            .unwrap_or_default()
+            .to_owned();
+        first.contains(char::is_alphabetic) && Decimal::Either.parse(&first).is_none()
+    }
+
+    /// Takes in the row of units below the names.
+    pub(super) fn take_units(&mut self, row: &str) -> Result<(), TableProblem> {
+        let mut cells = Cells::separated_by(self.separator);
+        let units = cells.of(row.trim_end_matches(['\n', '\r']));
+        let expected = self.columns.len() + 1;
+        if units.len() != expected {
+            return Err(TableProblem::whole(
+                format_args!("a row of {} units", units.len()),
+                format_args!("{expected}, one for each column, empty where there is none"),
+            ));
+        }
+        for (index, cell) in units.into_iter().enumerate() {
+            let Some(unit) = unit_of_cell(cell) else {
+                continue;
+            };
+            let stated = match index.checked_sub(1) {
+                None if !unit.eq_ignore_ascii_case("hz") => {
+                    return Err(TableProblem::at(
+                        "column 1",
+                        format_args!("the unit \"{}\"", crate::shown(unit)),
+                        "Hz in the row of units, or numbers in every row below the names",
+                    ));
+                }
+                None => &mut self.frequency_unit,
+                Some(column) => &mut self.columns[column].unit,
+            };
+            match stated {
+                Some(stated) if stated != unit && index > 0 => {
+                    return Err(TableProblem::at(
+                        format_args!("column {}", index + 1),
+                        format_args!(
+                            "the unit \"{}\" below a name with the unit \"{stated}\"",
+                            crate::shown(unit)
+                        ),
+                        "the same in both, or one of them alone",
+                    ));
+                }
+                stated => *stated = Some(unit.to_owned()),
+            }
+        }
+        Ok(())
+    }
+
+    /// The functions that the columns make; `keys` say what the columns do not.
+    pub(super) fn grouped(self, keys: &Keys) -> Result<Header, TableProblem> {
+        let column_count = self.columns.len() + 1;
         let mut order = Vec::new();
         let mut parts: BTreeMap<(Dof, Dof), BTreeMap<Part, (usize, Column)>> = BTreeMap::new();
-        for (index, name) in names.iter().enumerate().skip(1) {
-            let column = Column::read(name, index + 1)?;
+        for (index, column) in (1..).zip(self.columns) {
             let pair = (column.response, column.reference);
             let part = column.part;
             if !parts.contains_key(&pair) {
@@ -157,152 +157,47 @@ impl Header {
                 ));
             }
         }
+        let is_coherence = |parts: &BTreeMap<Part, _>| parts.keys().all(|&p| p == Part::Coherence);
+        let coherence_alone = parts.values().all(is_coherence);
         let functions = order
             .into_iter()
-            .map(|pair| Columns::from_parts(pair, parts.remove(&pair).unwrap_or_default()))
+            .map(|pair| {
+                let parts = parts.remove(&pair).unwrap_or_default();
+                Columns::from_parts(pair, parts, keys, coherence_alone)
+            })
             .collect::<Result<_, _>>()?;
-        Ok(Self {
-            separator,
-            column_count: names.len(),
+        Ok(Header {
+            separator: self.separator,
+            column_count,
             functions,
         })
     }
 }
 
-/// A name without its unit, which stands in brackets at the end.
-fn split_unit(name: &str) -> (&str, Option<&str>) {
-    match (name.find('['), name.strip_suffix(']')) {
-        (Some(at), Some(inner)) => (name[..at].trim(), Some(inner[at + 1..].trim())),
-        _ => (name, None),
-    }
+/// A unit in a cell of its own: in brackets or not; nothing for an empty cell or a dash.
+fn unit_of_cell(cell: &str) -> Option<&str> {
+    let inner = [('[', ']'), ('(', ')')].iter().find_map(|&(open, close)| {
+        let inner = cell.strip_prefix(open)?.strip_suffix(close)?;
+        // "(m/s^2)/(N)" has no brackets around it
+        (!inner.contains([open, close])).then_some(inner.trim())
+    });
+    let unit = inner.unwrap_or(cell);
+    (!["", "-", "–", "—"].contains(&unit)).then_some(unit)
 }
 
-fn check_frequency(name: &str) -> Result<(), TableProblem> {
+/// The unit in the name of the first column, which holds frequencies in Hz.
+fn frequency_unit(name: &str) -> Result<Option<String>, TableProblem> {
     let (word, unit) = split_unit(name);
     let is_frequency = ["frequency", "freq", "f"]
         .iter()
         .any(|known| word.eq_ignore_ascii_case(known));
     let is_hertz = unit.is_none_or(|unit| unit.eq_ignore_ascii_case("hz"));
     match is_frequency && is_hertz {
-        true => Ok(()),
+        true => Ok(unit.map(str::to_owned)),
         false => Err(TableProblem::at(
             "column 1",
             format_args!("\"{}\"", crate::shown(name)),
             "\"frequency [Hz]\" as the first column's name; write a header row, and frequencies in Hz",
         )),
-    }
-}
-
-impl Column {
-    fn read(name: &str, column: usize) -> Result<Self, TableProblem> {
-        let at = || format!("column {column}");
-        let no_name = || {
-            TableProblem::at(
-                at(),
-                format_args!("the name \"{}\"", crate::shown(name)),
-                "RESPONSE/REFERENCE, one of real, imaginary, magnitude, phase and coherence, and perhaps a quantity and a [unit], such as \
-                 \"11:+Y/2:+Y accelerance real [m/s^2/N]\"",
-            )
-        };
-        let (text, unit) = split_unit(name);
-        let mut words = text.split_whitespace();
-        let (response, reference) = words
-            .next()
-            .and_then(|pair| pair.split_once('/'))
-            .ok_or_else(no_name)?;
-        let dof = |text: &str| {
-            text.parse::<Dof>()
-                .map_err(|source| TableProblem::Dof { at: at(), source })
-        };
-        let (response, reference) = (dof(response)?, dof(reference)?);
-        let (mut part, mut stated) = (None, None);
-        for word in words {
-            match (Part::from_word(word), quantity(word)) {
-                (Some(found), _) if part.is_none() => part = Some(found),
-                (None, Some(found)) if stated.is_none() => stated = Some(found),
-                _ => return Err(no_name()),
-            }
-        }
-        Ok(Self {
-            response,
-            reference,
-            part: part.ok_or_else(no_name)?,
-            quantity: stated,
-            unit: unit.map(str::to_owned),
-        })
-    }
-
-    /// Radians in one unit of a phase.
-    fn radians(&self, index: usize) -> Result<f64, TableProblem> {
-        match self.unit.as_deref() {
-            Some("rad") => Ok(1.0),
-            Some("deg" | "°") => Ok(PI / 180.0),
-            other => Err(TableProblem::at(
-                format_args!("column {}", index + 1),
-                format_args!("a phase in \"{}\"", other.unwrap_or("no unit")),
-                "[deg] or [rad] after its name",
-            )),
-        }
-    }
-}
-
-impl Columns {
-    fn from_parts(
-        pair: (Dof, Dof),
-        mut parts: BTreeMap<Part, (usize, Column)>,
-    ) -> Result<Self, TableProblem> {
-        let coherence = parts.remove(&Part::Coherence).map(|(index, _)| index);
-        let found: Vec<&str> = parts.keys().map(|part| part.name()).collect();
-        let found = match found.is_empty() {
-            true => "a coherence alone".to_owned(),
-            false => found.join(" and "),
-        };
-        let mut take = |part| parts.remove(&part);
-        let (real, imaginary) = (take(Part::Real), take(Part::Imaginary));
-        let (magnitude, phase) = (take(Part::Magnitude), take(Part::Phase));
-        let (form, first, second) = match (real, imaginary, magnitude, phase) {
-            (Some((real, first)), Some((imaginary, second)), None, None) => {
-                (Form::Cartesian { real, imaginary }, first, second)
-            }
-            (None, None, Some((magnitude, first)), Some((phase, mut second))) => {
-                let radians = second.radians(phase)?;
-                second.unit = None;
-                (
-                    Form::Polar {
-                        magnitude,
-                        phase,
-                        radians,
-                    },
-                    first,
-                    second,
-                )
-            }
-            _ => {
-                let expected = "columns for real and imaginary part, or for magnitude and phase";
-                return Err(TableProblem::of_function(pair, found, expected));
-            }
-        };
-        let differing = |first: String, second: String| {
-            let found = format!("\"{first}\" in one column and \"{second}\" in another");
-            TableProblem::of_function(pair, found, "the same in both")
-        };
-        let unit = match (first.unit, second.unit) {
-            (Some(first), Some(second)) if first != second => return Err(differing(first, second)),
-            (first, second) => first.or(second),
-        };
-        let quantity = match (first.quantity, second.quantity) {
-            (Some(first), Some(second)) if first != second => {
-                return Err(differing(first.to_string(), second.to_string()));
-            }
-            (first, second) => first.or(second),
-        };
-        Ok(Self {
-            response: pair.0,
-            reference: pair.1,
-            quantity,
-            unit,
-            form,
-            coherence,
-        })
     }
 }

@@ -1,11 +1,14 @@
-//! Functions as a table: one column of frequencies, and two columns for each function.
+//! Functions as a table: one column of frequencies, and one or two columns for each function.
 //!
 //! The header row carries what a universal file keeps in its records: between which degrees of freedom a column lies, what it
 //! holds and in which unit.
 
+mod column;
+mod decibel;
 mod header;
 mod number;
 mod read;
+mod row;
 
 pub use number::Decimal;
 pub use read::{read_csv, read_csv_from};

@@ -1,5 +1,7 @@
 //! Numbers of a table, with a decimal point or a decimal comma, but not both in one file.
 
+use num_complex::Complex64;
+
 /// How decimals are marked in a file, as far as its numbers have shown it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Decimal {
@@ -22,7 +24,7 @@ impl Decimal {
         };
         // `f64::from_str` takes words too; those are not what a table's cell should say by accident.
         let number = text.bytes().any(|byte| byte.is_ascii_digit());
-        let word = ["nan", "inf", "+inf", "-inf"]
+        let word = ["nan", "+nan", "-nan", "inf", "+inf", "-inf"]
             .iter()
             .any(|word| text.eq_ignore_ascii_case(word));
         if !(number || word) {
@@ -34,6 +36,43 @@ impl Decimal {
         };
         Some((value, used))
     }
+
+    /// A complex number as programs write it, and what its file is now known to use: `1.2+3.4j`, `(1.2-3.4i)`, `5j`, `1.2`.
+    pub(super) fn parse_complex(self, text: &str) -> Option<(Complex64, Self)> {
+        let text = text.trim();
+        let inner = text
+            .strip_prefix('(')
+            .and_then(|text| text.strip_suffix(')'));
+        let text = inner.unwrap_or(text).trim();
+        let Some(parts) = text.strip_suffix(['i', 'j', 'I', 'J']) else {
+            let (real, used) = self.parse(text)?;
+            return Some((Complex64::from(real), used));
+        };
+        let parts = parts.trim_end().trim_end_matches('*');
+        // the sign between the parts is the last one that is no exponent's
+        let bytes = parts.as_bytes();
+        let between = (1..bytes.len()).rev().find(|&place| {
+            matches!(bytes[place], b'+' | b'-')
+                && !(matches!(bytes[place - 1], b'e' | b'E') && is_digit_before(bytes, place - 1))
+        });
+        let (real, imaginary) = parts.split_at(between.unwrap_or(0));
+        let imaginary: String = imaginary.split_whitespace().collect();
+        let (real, used) = match real.trim() {
+            "" => (0.0, self),
+            real => self.parse(real)?,
+        };
+        let (imaginary, used) = match imaginary.as_str() {
+            "" | "+" => (1.0, used),
+            "-" => (-1.0, used),
+            imaginary => used.parse(imaginary)?,
+        };
+        Some((Complex64::new(real, imaginary), used))
+    }
+}
+
+/// Whether what stands before this place is a number, so that the letter there is its exponent's.
+fn is_digit_before(bytes: &[u8], place: usize) -> bool {
+    place > 0 && (bytes[place - 1].is_ascii_digit() || matches!(bytes[place - 1], b'.' | b','))
 }
 
 #[cfg(test)]
@@ -53,6 +92,39 @@ mod tests {
             "1.234,5", "1,234.5", "1,234,5", "", "abc", "1 000", "infinity",
         ] {
             assert_eq!(parse(Decimal::Either, text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn complex_numbers_are_those_of_numpy_matlab_and_spreadsheets() {
+        for (text, real, imaginary) in [
+            ("1.2+3.4j", 1.2, 3.4),
+            ("1.2-3.4i", 1.2, -3.4),
+            (" (1.000000000000000000e+00-2.5e-01j)", 1.0, -0.25),
+            ("(-1e-3+2E+4J)", -1e-3, 2e4),
+            ("1.5 + 2i", 1.5, 2.0),
+            ("-3.4i", 0.0, -3.4),
+            ("1e5j", 0.0, 1e5),
+            ("j", 0.0, 1.0),
+            ("1-i", 1.0, -1.0),
+            ("2*i", 0.0, 2.0),
+            ("7", 7.0, 0.0),
+            ("nan+nanj", f64::NAN, f64::NAN),
+        ] {
+            let (found, _) = Decimal::Either.parse_complex(text).unwrap();
+            let same = |a: f64, b: f64| a == b || a.is_nan() && b.is_nan();
+            assert!(
+                same(found.re, real) && same(found.im, imaginary),
+                "{text}: {found}"
+            );
+        }
+        let (found, used) = Decimal::Either.parse_complex("1,2+3,4i").unwrap();
+        assert_eq!((found, used), (Complex64::new(1.2, 3.4), Decimal::Comma));
+        for text in [
+            "", "1+2", "1.2+3.4", "1++2j", "1,2+3.4j", "i1", "1+2jj", "(1+2j", "e-i", "1e-+2j",
+            "()", "2+i3",
+        ] {
+            assert_eq!(Decimal::Either.parse_complex(text), None, "{text}");
         }
     }
 }

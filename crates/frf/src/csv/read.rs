@@ -7,8 +7,10 @@ use std::path::Path;
 use bolted_joint_files::text_table::Cells;
 use num_complex::Complex64;
 
-use super::header::{Columns, Form, Header, Keys};
+use super::column::{Columns, Form};
+use super::header::{Header, Keys, Names};
 use super::number::Decimal;
+use super::row::Row;
 use crate::gathered::Gathered;
 use crate::read::opened;
 use crate::statement::{Stated, Statement};
@@ -21,8 +23,9 @@ const LONGEST_LINE: usize = 1 << 20;
 /// Reads the functions of a table (CSV).
 ///
 /// The first row names the columns: `frequency [Hz]`, then for each function two columns such as
-/// `11:+Y/2:+Y real [m/N]` and `11:+Y/2:+Y imaginary [m/N]`, or `… magnitude [m/N]` and `… phase [deg]`, and perhaps
-/// `… coherence`. Lines that begin with `#` are comments; `# quantity = …`, `# unit = …` and `# averages = …` hold for all
+/// `11:+Y/2:+Y real [m/N]` and `11:+Y/2:+Y imaginary [m/N]`, or `… magnitude [m/N]` and `… phase [deg]`, or one column
+/// `… complex [m/N]`, and perhaps `… coherence`. Units may stand in a row of their own below the names, and a magnitude may be
+/// in decibels, `[dB re 1 m/N]`. A table of coherences alone gives these and no function. Lines that begin with `#` are comments; `# quantity = …`, `# unit = …` and `# averages = …` hold for all
 /// functions that do not say otherwise. Values become receptances in SI units.
 ///
 /// # Errors
@@ -60,9 +63,10 @@ pub fn read_csv_from(
         path,
         number: 0,
         line: Vec::new(),
+        held: false,
     };
     let mut keys = Keys::default();
-    let header = loop {
+    let mut names = loop {
         if !rows.advance()? {
             return Err(rows.problem(TableProblem::whole(
                 "no header row",
@@ -76,15 +80,25 @@ pub fn read_csv_from(
                 keys.read(comment)
                     .map_err(|problem| rows.problem(problem))?;
             }
-            row => break Header::read(row).map_err(|problem| rows.problem(problem))?,
+            row => break Names::read(row).map_err(|problem| rows.problem(problem))?,
         }
     };
     let header_line = rows.number;
+    if rows.advance_to_cells()? {
+        let text = rows.text();
+        rows.held = !names.are_units(&text);
+        if !rows.held {
+            names
+                .take_units(&text)
+                .map_err(|problem| rows.problem(problem))?;
+        }
+    }
     let at_header = |problem| FrfError::Csv {
         path: path.to_owned(),
         line: header_line,
         problem: Box::new(problem),
     };
+    let header = names.grouped(&keys).map_err(at_header)?;
     let mut not_selected = BTreeSet::new();
     let mut wanted = Vec::new();
     for columns in header.functions.iter() {
@@ -96,10 +110,13 @@ pub fn read_csv_from(
         let statement = Statement {
             response,
             reference,
-            quantity: columns.quantity.or(keys.quantity),
-            unit: columns.unit.as_deref().or(keys.unit.as_deref()),
+            quantity: columns.quantity,
+            unit: columns.unit.as_deref(),
         };
-        let stated = statement.decide(options).map_err(at_header)?;
+        let stated = match columns.form {
+            Form::None => None,
+            _ => Some(statement.decide(options).map_err(at_header)?),
+        };
         wanted.push(Wanted {
             columns,
             stated,
@@ -126,12 +143,16 @@ pub fn read_csv_from(
     } in wanted
     {
         let pair = (columns.response, columns.reference);
-        functions.push(
-            lines
-                .into_frf(pair, stated.quantity.0, stated.to_si, &options.selection)
-                .map_err(function)?,
-        );
-        statements.add(FileFormat::Table, stated.quantity, stated.units);
+        if let Some(stated) = stated {
+            functions.push(
+                lines
+                    .into_frf(pair, stated.quantity.0, stated.to_si, &options.selection)
+                    .map_err(function)?,
+            );
+            statements.add(FileFormat::Table, stated.quantity, stated.units);
+        } else {
+            statements.add_coherence(FileFormat::Table);
+        }
         if columns.coherence.is_some() {
             let gamma_squared = coherence.values.iter().map(|value| value.re).collect();
             coherences.push(
@@ -149,13 +170,15 @@ pub fn read_csv_from(
         skipped_functions: Vec::new(),
         skipped_datasets: 0,
         statements,
+        taken: Vec::new(),
     })
 }
 
 /// A function that is asked for, as far as it has been read.
 struct Wanted<'header> {
     columns: &'header Columns,
-    stated: Stated,
+    /// Nothing for a coherence alone.
+    stated: Option<Stated>,
     lines: Gathered,
     coherence: Gathered,
 }
@@ -166,9 +189,25 @@ struct Rows<'path, R> {
     path: &'path Path,
     number: usize,
     line: Vec<u8>,
+    /// Whether the current line is still to be read as numbers.
+    held: bool,
 }
 
 impl<R: BufRead> Rows<'_, R> {
+    /// On to the next line that is neither blank nor a comment; whether there is one.
+    fn advance_to_cells(&mut self) -> Result<bool, FrfError> {
+        if std::mem::take(&mut self.held) {
+            return Ok(true);
+        }
+        while self.advance()? {
+            let text = self.text();
+            if !text.trim().is_empty() && !text.starts_with('#') {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
     fn advance(&mut self) -> Result<bool, FrfError> {
         self.line.clear();
         self.number += 1;
@@ -225,11 +264,8 @@ impl<R: BufRead> Rows<'_, R> {
         };
         let mut tokeniser = Cells::separated_by(header.separator);
         let mut before_hz = None;
-        while self.advance()? {
+        while self.advance_to_cells()? {
             let text = self.text();
-            if text.trim().is_empty() || text.starts_with('#') {
-                continue;
-            }
             let cells = tokeniser.of(text.trim_end_matches(['\n', '\r']));
             if cells.len() != header.column_count {
                 return Err(self.problem(TableProblem::whole(
@@ -240,22 +276,11 @@ impl<R: BufRead> Rows<'_, R> {
                     ),
                 )));
             }
-            let mut number = |index: usize| {
-                let (number, used) = decimal.parse(cells[index]).ok_or_else(|| {
-                    let more = match cells[index].contains(',') || decimal == Decimal::Comma {
-                        true => "; commas and points for decimals in one file are not read, nor are separators of thousands",
-                        false => "",
-                    };
-                    self.problem(TableProblem::at(
-                        format_args!("column {}", index + 1),
-                        format_args!("\"{}\"", crate::shown(cells[index])),
-                        format_args!("a number such as 1.25e-3{more}"),
-                    ))
-                })?;
-                decimal = used;
-                Ok::<f64, FrfError>(number)
+            let mut row = Row {
+                cells: &cells,
+                decimal: &mut decimal,
             };
-            let hz = number(0)?;
+            let hz = row.real(0).map_err(|problem| self.problem(problem))?;
             if !hz.is_finite() || hz < 0.0 || before_hz.is_some_and(|before| hz <= before) {
                 let after = before_hz.map(|before| format!(" after {before} Hz"));
                 return Err(self.problem(TableProblem::at(
@@ -266,26 +291,8 @@ impl<R: BufRead> Rows<'_, R> {
             }
             before_hz = Some(hz);
             for function in &mut *wanted {
-                let value = match function.columns.form {
-                    Form::Cartesian { real, imaginary } => {
-                        Complex64::new(number(real)?, number(imaginary)?)
-                    }
-                    Form::Polar {
-                        magnitude,
-                        phase,
-                        radians,
-                    } => {
-                        let found = number(magnitude)?;
-                        if found < 0.0 {
-                            return Err(self.problem(TableProblem::at(
-                                format_args!("column {}", magnitude + 1),
-                                format_args!("magnitude {found}"),
-                                "a number that is not negative; decibels are not read",
-                            )));
-                        }
-                        Complex64::from_polar(found, number(phase)? * radians)
-                    }
-                };
+                let value = row.value(function.columns.form);
+                let value = value.map_err(|problem| self.problem(problem))?;
                 if !value.is_finite() && options.selection.wants_line(hz) {
                     return Err(self.problem(TableProblem::of_function(
                         (function.columns.response, function.columns.reference),
@@ -295,7 +302,8 @@ impl<R: BufRead> Rows<'_, R> {
                 }
                 function.lines.push(&options.selection, hz, value);
                 if let Some(column) = function.columns.coherence {
-                    let gamma_squared = Complex64::from(number(column)?);
+                    let found = row.real(column).map_err(|problem| self.problem(problem))?;
+                    let gamma_squared = Complex64::from(found);
                     function
                         .coherence
                         .push(&options.selection, hz, gamma_squared);

@@ -136,6 +136,8 @@ impl<R: Read + Seek> MatFile<R> {
 impl<R: Read + Seek> ArrayFile for MatFile<R> {
     const FORMAT: FileFormat = FileFormat::Matlab;
     const SAVE: &str = SAVE;
+    const HINT: &str =
+        "; fields of a structure become arrays by save('file.mat', '-struct', 'name', '-v7')";
     const CONVERT: &str = "convert it before saving: double(…), cellstr(…)";
     type Array<'file>
         = Matrix<Box<dyn Read + 'file>>
@@ -383,7 +385,12 @@ fn cut_short() -> io::Error {
 /// No file of level 5.
 fn other_level() -> TableProblem {
     let found = "no MATLAB file of level 5 (it may be one of -v7.3, which is HDF5, or of -v4)";
-    TableProblem::whole(found, format_args!("a file of {SAVE}"))
+    TableProblem::whole(
+        found,
+        format_args!(
+            "a file of {SAVE}; load the file in MATLAB and save it so, or read it with the Python module (read, with h5py)"
+        ),
+    )
 }
 
 fn damaged(error: io::Error) -> TableProblem {

@@ -127,21 +127,45 @@ impl FrfSet {
                 last_hz: self.frequency_hz[self.frequency_hz.len() - 1],
             });
         }
-        Ok(Self {
-            frequency_hz: self.frequency_hz[start..end].to_vec(),
-            receptances: self
-                .receptances
-                .iter()
-                .map(|(&pair, values)| (pair, values[start..end].to_vec()))
+        let lines: Vec<usize> = (start..end).collect();
+        Ok(self.at(&lines))
+    }
+
+    /// The same functions at the lines within `bands_hz` (Hz, ends included; all lines where there is no band), and of these at
+    /// the first and then every so many.
+    ///
+    /// # Errors
+    /// [`FrfError::EmptyBand`] for a band without a line.
+    pub fn thinned(&self, bands_hz: &[[f64; 2]], every: usize) -> Result<Self, FrfError> {
+        for &[from_hz, to_hz] in bands_hz {
+            self.restricted_to(from_hz, to_hz)?;
+        }
+        let is_within = |&line: &usize| {
+            let hz = self.frequency_hz[line];
+            bands_hz.is_empty() || bands_hz.iter().any(|&[from, to]| (from..=to).contains(&hz))
+        };
+        let lines = (0..self.frequency_hz.len()).filter(is_within);
+        let lines: Vec<usize> = lines.step_by(every.max(1)).collect();
+        Ok(self.at(&lines))
+    }
+
+    fn at(&self, lines: &[usize]) -> Self {
+        fn chosen<T: Copy>(values: &[T], lines: &[usize]) -> Vec<T> {
+            lines.iter().map(|&line| values[line]).collect()
+        }
+        let receptances = self.receptances.iter();
+        let gamma_squared = self.gamma_squared.iter();
+        Self {
+            frequency_hz: chosen(&self.frequency_hz, lines),
+            receptances: receptances
+                .map(|(&pair, own)| (pair, chosen(own, lines)))
                 .collect(),
-            gamma_squared: self
-                .gamma_squared
-                .iter()
-                .map(|(&pair, values)| (pair, values[start..end].to_vec()))
+            gamma_squared: gamma_squared
+                .map(|(&pair, own)| (pair, chosen(own, lines)))
                 .collect(),
             averages: self.averages,
             left_out: self.left_out.clone(),
-        })
+        }
     }
 }
 
@@ -230,6 +254,11 @@ mod tests {
             found.values(),
             [Complex64::new(10.0, 5.0), Complex64::new(20.0, 5.0)]
         );
+        let thin = small_set().thinned(&[[1.0, 1.0], [2.0, 4.0]], 2).unwrap();
+        assert_eq!(thin.frequency_hz(), [1.0, 4.0]);
+        let found = thin.receptance(dof("2:Y"), dof("2:Y")).unwrap();
+        assert_eq!(found.values()[1], Complex64::new(20.0, 5.0));
+        assert!(small_set().thinned(&[[2.5, 3.5]], 1).is_err());
         for (from, to) in [
             (2.5, 3.5),
             (4.0, 2.0),

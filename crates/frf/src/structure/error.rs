@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::{Dof, TableProblem};
+use crate::{Dof, FrfError, TableProblem};
 use bolted_joint_files::text_file::TextFileError;
 
 /// Why a structure cannot be built, read or computed.
@@ -80,6 +80,9 @@ pub enum StructureError {
         /// What is wrong with them.
         problem: Box<TableProblem>,
     },
+    /// Modes of a universal file that cannot be read.
+    #[error(transparent)]
+    Universal(#[from] Box<FrfError>),
     /// Modes that are not complete, or not physical.
     #[error("{}: {found}, expected {expected}", path.display())]
     Modes {

@@ -44,6 +44,14 @@ pub enum UffProblem {
         /// The beginning of the line.
         found: String,
     },
+    /// A mode shape that cannot be used.
+    #[error("found {found}, expected {expected}")]
+    Shape {
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
+    },
     /// The file ends before the data set does.
     #[error(
         "the file ends inside data set {dataset} that begins at line {begun_at}, expected \"    -1\" at its end; \

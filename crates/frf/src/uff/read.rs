@@ -5,14 +5,14 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::binary::Form;
+use super::datasets::Units;
 use super::function_type::{COHERENCE, FREQUENCY_RESPONSE, function_type_name};
 use super::header::{Header, InRecord, RECORDS, function_type};
 use super::lines::Lines;
 use super::meaning::{check_abscissa, decide};
-use super::{UffProblem, UnitSystem, binary, values};
+use super::{UffProblem, binary, values};
 use crate::gathered::Gathered;
 use crate::read::opened;
-use crate::shown;
 use crate::summary::Statements;
 use crate::{
     Coherence, Dof, FileFormat, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
@@ -73,9 +73,6 @@ pub(crate) fn read_uff58_of(
     scan.finish(options)
 }
 
-/// Records of data set 164 that are looked at.
-const MOST_UNIT_RECORDS: usize = 8;
-
 /// A function whose units may still be stated further down the file.
 struct Pending {
     begun_at: usize,
@@ -90,8 +87,7 @@ struct Scan<'options, R> {
     pending: Vec<Pending>,
     coherences: Vec<Coherence>,
     not_selected: BTreeSet<(Dof, Dof)>,
-    /// Units of the first data set 164 and the line at which it begins.
-    units: Option<(usize, UnitSystem)>,
+    units: Units,
     skipped_functions: Vec<SkippedFunction>,
     skipped_datasets: usize,
     /// Data sets of any kind that have been met.
@@ -101,78 +97,25 @@ struct Scan<'options, R> {
 impl<R: BufRead> Scan<'_, R> {
     /// Reads or skips one data set; `false` at the end of the file.
     fn dataset(&mut self) -> Result<bool, FrfError> {
-        loop {
-            if !self.lines.advance()? {
-                return Ok(false);
-            }
-            if self.lines.is_delimiter() {
-                break;
-            }
-            if !self.lines.is_blank() {
-                let found = shown(&self.lines.text());
-                return Err(self.lines.problem(match self.nothing_yet() {
-                    true => UffProblem::NotUniversalFile { found },
-                    false => UffProblem::BetweenDatasets { found },
-                }));
-            }
-        }
-        let begun_at = self.lines.number();
-        if !self.lines.advance()? {
-            return Err(self.ends_inside("without a number", begun_at));
-        }
-        let text = self.lines.text();
-        let number = text
-            .split_whitespace()
-            .next()
-            .unwrap_or_default()
-            .to_lowercase();
-        match number.as_str() {
+        let Some(begun) = self.lines.next_dataset(self.datasets == 0)? else {
+            return Ok(false);
+        };
+        let begun_at = begun.at;
+        match begun.number.as_str() {
             "58" => self.function(None, begun_at)?,
             "58b" => {
-                let form = Form::from_line(&text).map_err(|problem| self.lines.problem(problem))?;
+                let form = Form::from_line(&self.lines.text())
+                    .map_err(|problem| self.lines.problem(problem))?;
                 self.function(Some(form), begun_at)?;
             }
-            "164" => self.units(begun_at)?,
-            _ if is_binary(&number) => {
-                if !self.lines.skip_to_delimiter()? {
-                    return Err(self.ends_inside(&number, begun_at));
-                }
-                self.skip_rest(&number, begun_at)?;
-                self.skipped_datasets += 1;
-            }
-            _ if number.starts_with(|c: char| c.is_ascii_digit()) => {
-                self.skip_rest(&number, begun_at)?;
-                self.skipped_datasets += 1;
-            }
+            "164" => self.lines.read_units(&mut self.units, begun_at)?,
             _ => {
-                let found = shown(&self.lines.text());
-                return Err(self.lines.problem(UffProblem::DatasetNumber { found }));
+                self.lines.pass_over(&begun)?;
+                self.skipped_datasets += 1;
             }
         }
         self.datasets += 1;
         Ok(true)
-    }
-
-    fn nothing_yet(&self) -> bool {
-        self.datasets == 0
-    }
-
-    fn ends_inside(&self, dataset: &str, begun_at: usize) -> FrfError {
-        let dataset = dataset.to_owned();
-        self.lines
-            .problem(UffProblem::EndsInside { dataset, begun_at })
-    }
-
-    /// Goes on to the closing `-1`.
-    fn skip_rest(&mut self, dataset: &str, begun_at: usize) -> Result<(), FrfError> {
-        loop {
-            if !self.lines.advance()? {
-                return Err(self.ends_inside(dataset, begun_at));
-            }
-            if self.lines.is_delimiter() {
-                return Ok(());
-            }
-        }
     }
 
     fn function(&mut self, form: Option<Form>, begun_at: usize) -> Result<(), FrfError> {
@@ -190,7 +133,7 @@ impl<R: BufRead> Scan<'_, R> {
             Ok(header) => header,
             // What is passed over need not be understood, unless it takes that to know where it ends.
             Err(_) if kind != FREQUENCY_RESPONSE && form.is_none() => {
-                self.skip_rest("58", begun_at)?;
+                self.lines.skip_rest("58", begun_at)?;
                 self.skipped_functions.push(skipped(begun_at));
                 return Ok(());
             }
@@ -207,7 +150,7 @@ impl<R: BufRead> Scan<'_, R> {
                 values::read(&mut self.lines, header.layout, begun_at, selection)?
             }
             (None, None) => {
-                self.skip_rest("58", begun_at)?;
+                self.lines.skip_rest("58", begun_at)?;
                 Gathered::default()
             }
         };
@@ -234,7 +177,7 @@ impl<R: BufRead> Scan<'_, R> {
         let mut records: [String; RECORDS] = Default::default();
         for (index, record) in records.iter_mut().enumerate() {
             if !self.lines.advance()? {
-                return Err(self.ends_inside("58", begun_at));
+                return Err(self.lines.ends_inside("58", begun_at));
             }
             if self.lines.is_delimiter() {
                 return Err(self.lines.problem(UffProblem::HeaderEnds {
@@ -271,45 +214,8 @@ impl<R: BufRead> Scan<'_, R> {
         Ok(())
     }
 
-    fn units(&mut self, begun_at: usize) -> Result<(), FrfError> {
-        let mut records = Vec::new();
-        loop {
-            if !self.lines.advance()? {
-                return Err(self.ends_inside("164", begun_at));
-            }
-            if self.lines.is_delimiter() {
-                break;
-            }
-            // Two records are what the standard has; more than a few are not looked at, however long the data set is.
-            if records.len() < MOST_UNIT_RECORDS {
-                records.push(self.lines.text().into_owned());
-            }
-        }
-        if records.len() < 2 {
-            return Err(self.lines.problem(UffProblem::HeaderEnds {
-                dataset: 164,
-                begun_at,
-                found: records.len(),
-                expected: 2,
-            }));
-        }
-        // The first record is two lines below the opening `-1`.
-        let units = UnitSystem::from_records(&records)
-            .map_err(|(index, problem)| self.lines.problem_at(begun_at + 2 + index, problem))?;
-        match self.units {
-            None => self.units = Some((begun_at, units)),
-            Some((_, first)) if first.agrees_with(units) => {}
-            Some((first_line, _)) => {
-                return Err(self
-                    .lines
-                    .problem_at(begun_at, UffProblem::SecondUnits { first_line }));
-            }
-        }
-        Ok(())
-    }
-
     fn finish(self, options: &ReadOptions) -> Result<FrfReading, FrfError> {
-        if self.nothing_yet() {
+        if self.datasets == 0 {
             return Err(self.lines.problem_at(1, UffProblem::Empty));
         }
         let units = self.units.map(|(_, units)| units);
@@ -347,15 +253,9 @@ impl<R: BufRead> Scan<'_, R> {
             skipped_functions: self.skipped_functions,
             skipped_datasets: self.skipped_datasets,
             statements,
+            taken: Vec::new(),
         })
     }
-}
-
-/// Whether a data set's number is that of a binary one, such as `2414b`.
-fn is_binary(number: &str) -> bool {
-    number.strip_suffix('b').is_some_and(|digits| {
-        !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
-    })
 }
 
 /// An error in a header record, at that record's line: record 1 is two lines below the opening `-1`.

@@ -47,6 +47,7 @@ pub(super) struct Assembled {
 pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, IdentifyError> {
     let mut reader = Reader {
         watch: Some(watch),
+        lines: Some(study.lines.clone()),
         ..Reader::default()
     };
     let mut all = vec![assembly_lines(study, &mut reader)?];

@@ -7,8 +7,9 @@ use super::super::from_modes::FromModes;
 use super::super::study::FrfFile;
 use super::super::watch::Watch;
 use bolted_joint_frf::{
-    Dof, FileSummary, FrfError, FrfSet, ReadOptions, Selection, read_frfs_watched,
+    Dof, FileSummary, FrfError, FrfReading, FrfSet, ReadOptions, Selection, read_frfs_watched,
 };
+use bolted_joint_study::LineChoice;
 
 /// Reads files of functions and remembers what they state and what it had to assume.
 #[derive(Default)]
@@ -16,6 +17,8 @@ pub(super) struct Reader<'watch> {
     pub(super) watch: Option<&'watch dyn Watch>,
     pub(super) warnings: Vec<String>,
     pub(super) from_modes: Vec<FromModes>,
+    /// Lines to use of what is read; all where nothing is said.
+    pub(super) lines: Option<LineChoice>,
     /// Of each file that was read, each once.
     pub(super) files: Vec<FileSummary>,
 }
@@ -34,15 +37,18 @@ impl Reader<'_> {
             averages: file.averages,
             selection: Selection::between(dofs.iter().copied()).within(from_hz, to_hz),
         };
-        let watch = |bytes, of| {
-            if let Some(watch) = self.watch {
-                watch.read(&file.path, bytes, of);
-            }
+        let functions = file.function_files();
+        let functions = functions
+            .map(|path| self.one(path, &options))
+            .collect::<Result<_, _>>()?;
+        let mut reading = FrfReading::joined(functions)?;
+        // all of a file's coherences, so that those of other points are told from none
+        let options = ReadOptions {
+            selection: Selection::everything().within(from_hz, to_hz),
+            ..options
         };
-        let reading = read_frfs_watched(&file.path, &options, &watch)?;
-        let summary = reading.summary();
-        if !self.files.contains(&summary) {
-            self.files.push(summary);
+        for path in &file.coherence {
+            reading = reading.with_coherences_of(self.one(path, &options)?)?;
         }
         if !reading.units_are_stated() {
             self.warnings.push(format!(
@@ -56,7 +62,39 @@ impl Reader<'_> {
                 file.path.display()
             ));
         }
-        Ok(reading.into_set()?)
+        let set = reading.into_set()?;
+        if let [path, ..] = &file.coherence[..]
+            && !set
+                .functions()
+                .any(|(p, q, _)| set.coherence(p, q).is_some())
+        {
+            self.warnings.push(format!(
+                "{}: none of its coherences belongs to a function of {}; correct the degrees of freedom in one of the two",
+                path.display(),
+                file.path.display()
+            ));
+        }
+        match &self.lines {
+            Some(lines) => set
+                .thinned(&lines.bands_hz, lines.every)
+                .map_err(|source| in_file(&file.path, source)),
+            None => Ok(set),
+        }
+    }
+
+    /// One of the files of a measurement.
+    fn one(&mut self, path: &Path, options: &ReadOptions) -> Result<FrfReading, FrfError> {
+        let watch = |bytes, of| {
+            if let Some(watch) = self.watch {
+                watch.read(path, bytes, of);
+            }
+        };
+        let reading = read_frfs_watched(path, options, &watch)?;
+        let summary = reading.summary();
+        if !self.files.contains(&summary) {
+            self.files.push(summary);
+        }
+        Ok(reading)
     }
 }
 

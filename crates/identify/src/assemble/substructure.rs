@@ -306,6 +306,9 @@ fn labelled_receptances(
                 .map_err(|source| in_file(&file.path, source))?;
             axis.compare(&file.path, set.frequency_hz())?;
             let modal = modes.as_deref().map(ModalModel::read).transpose()?;
+            reader
+                .warnings
+                .extend(modal.iter().flat_map(ModalModel::warnings).cloned());
             let completeness = modal
                 .as_ref()
                 .map_or(Completeness::All, Completeness::WithModes);
@@ -329,6 +332,7 @@ fn labelled_receptances(
         }
         Source::Modal(path) => {
             let model = ModalModel::read(path)?;
+            reader.warnings.extend_from_slice(model.warnings());
             Labelled::of_modes(&model, labels, axis.frequency_hz)
         }
     }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use bolted_joint_frf::structure::{Beam, Difference, FiniteDifference, Section};
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_joint::Bodies;
-use bolted_joint_study::{Method, StudyText};
+use bolted_joint_study::{LineChoice, Method, Paths, StudyText, schema};
 use bolted_joint_systematic::Budget;
 use nalgebra::DMatrix;
 
@@ -61,6 +61,8 @@ pub struct Study {
     pub bolts: Bolts,
     /// Lowest and highest frequency to use, Hz.
     pub frequency_range_hz: [f64; 2],
+    /// Which lines within this range are used.
+    pub lines: LineChoice,
     /// Bands of the averages.
     pub bands: BandChoices,
     /// Noise of the measured receptances, as far as the study states it.
@@ -220,8 +222,12 @@ pub enum Source {
 /// A file of functions, and what the study says about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrfFile {
-    /// The file.
+    /// The file, or the first of several.
     pub path: PathBuf,
+    /// Further files with functions of the same measurement, such as those of other references.
+    pub further: Vec<PathBuf>,
+    /// Files with the coherences of the functions, where they are not in the same ones.
+    pub coherence: Vec<PathBuf>,
     /// What was measured, where the file contradicts itself or does not say.
     pub quantity: Option<Quantity>,
     /// Its units, where the file contradicts itself or does not say.
@@ -230,6 +236,18 @@ pub struct FrfFile {
     pub averages: Option<f64>,
     /// The accelerometer that its functions are to be freed of.
     pub accelerometer: Option<Accelerometer>,
+}
+
+impl FrfFile {
+    /// Files with functions.
+    pub fn function_files(&self) -> impl Iterator<Item = &PathBuf> {
+        std::iter::once(&self.path).chain(&self.further)
+    }
+
+    /// All files, those with coherences last.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.function_files().chain(&self.coherence)
+    }
 }
 
 /// Where rotational receptances come from.
@@ -252,7 +270,8 @@ impl Substructure {
         let key = |substructure: &Self| match substructure {
             Self::Measured { source, joints, .. } => match source {
                 Source::Frf { file, modes } => {
-                    Some((file.path.clone(), modes.clone(), joints.clone()))
+                    let files: Vec<PathBuf> = file.function_files().cloned().collect();
+                    Some((files, modes.clone(), joints.clone()))
                 }
                 Source::Modal(_) => None,
             },
@@ -276,6 +295,12 @@ fn by_side(points: &[Dof], on_a: usize) -> (&[Dof], &[Dof]) {
 }
 
 impl Study {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// The points of B at which the first assembly was measured, and those of A.
     pub(super) fn points_by_side(&self) -> (&[Dof], &[Dof]) {
         by_side(&self.points, self.points_on_a)
@@ -440,23 +465,24 @@ impl Study {
                 Some(table) => check::substructure(study, key, table, model, &bolts),
                 None => Ok(otherwise.clone()),
             };
-            let measured_in = |path: PathBuf| {
+            let measured_in = |paths: Paths, coherence: Option<&Paths>| {
                 let stated = check::MeasuredAs {
+                    coherence,
                     quantity: table.quantity,
                     units: table.units.as_ref(),
                     averages: table.averages,
                     accelerometer_mass: table.accelerometer_mass.as_ref(),
                 };
-                check::frf_file(study, "assembly", &path, &stated)
+                check::frf_file(study, "assembly", &paths, &stated)
             };
             let assembly = FurtherAssembly {
-                file: measured_in(table.frf)?,
+                file: measured_in(table.frf, table.coherence.as_ref())?,
                 points_on_a: table.points_on_a.len(),
                 points: check::points(study, table.points, table.points_on_a)?,
                 repeats: table
                     .repeats
                     .into_iter()
-                    .map(measured_in)
+                    .map(|paths| measured_in(paths, None))
                     .collect::<Result<_, _>>()?,
                 torque_n_m: check::torque(study, table.torque)?,
                 level: check::level(study, table.level.as_ref())?,
@@ -477,7 +503,7 @@ impl Study {
             }
         }
         let first = assemblies.remove(0);
-        let frequency_range_hz = study.frequency_range_hz(&file.frequency)?;
+        let lines = study.line_choice(&file.frequency)?;
         check::bands(study, &file.bands.0)?;
         let noise = file
             .noise
@@ -507,7 +533,8 @@ impl Study {
             model,
             torques: file.joint.torques,
             bolts,
-            frequency_range_hz,
+            frequency_range_hz: lines.range_hz,
+            lines,
             bands: file.bands.0,
             noise,
             budget,

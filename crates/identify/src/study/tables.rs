@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 use bolted_joint_frf::structure::{Boundary, Difference};
 use bolted_joint_frf::{Dof, Quantity};
 use bolted_joint_joint::Bodies;
-use bolted_joint_study::{FrequencyTable, Method, OneOrMore, Stated, one_or_more_tables};
+use bolted_joint_study::{FrequencyTable, Method, OneOrMore, Paths, Stated, one_or_more_tables};
 
 use super::super::bands::{BandChoice, BandChoices};
 use super::super::level::LevelMeasure;
@@ -45,7 +45,8 @@ pub(super) struct StudyFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SubstructureTable {
-    pub(super) frf: Option<PathBuf>,
+    pub(super) frf: Option<Paths>,
+    pub(super) coherence: Option<Paths>,
     pub(super) quantity: Option<Quantity>,
     pub(super) units: Option<UnitsTable>,
     pub(super) averages: Option<f64>,
@@ -170,7 +171,8 @@ fn assemblies<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Assembly
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AssemblyTable {
-    pub(super) frf: PathBuf,
+    pub(super) frf: Paths,
+    pub(super) coherence: Option<Paths>,
     pub(super) quantity: Option<Quantity>,
     pub(super) units: Option<UnitsTable>,
     pub(super) averages: Option<f64>,
@@ -180,7 +182,7 @@ pub(super) struct AssemblyTable {
     #[serde(default)]
     pub(super) points_on_a: Vec<Dof>,
     #[serde(default)]
-    pub(super) repeats: Vec<PathBuf>,
+    pub(super) repeats: Vec<Paths>,
     pub(super) torque: Option<f64>,
     pub(super) level: Option<ExcitationTable>,
     pub(super) a: Option<SubstructureTable>,

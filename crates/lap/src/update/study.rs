@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::super::parameter::LapParameter;
 use super::firefly::Firefly;
 use super::problem::{Range, UpdateProblem};
-use bolted_joint_study::{Method, StudyError, StudyText};
+use bolted_joint_study::{Method, StudyError, StudyText, schema};
 
 /// More fireflies or generations than any search needs.
 const MOST: usize = 100_000;
@@ -110,6 +110,12 @@ impl<T: Copy> ParameterTable<T> {
 }
 
 impl LapUpdateStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// Reads and checks a study.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 """Frequency response functions as arrays."""
 
+import contextlib
 import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -7,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native
+from . import _matlab73, _native
 from ._command import BoltedJointError
 from ._html import table
 
@@ -173,6 +174,8 @@ def read(
 ) -> Functions:
     """Reads a file of frequency response functions: universal file, table, NumPy archive or MATLAB file.
 
+    MATLAB files of ``-v7.3`` (HDF5) are read where h5py is installed.
+
     Parameters
     ----------
     path : path
@@ -199,10 +202,11 @@ def read(
     """
     import warnings
 
-    try:
-        curves, coherences, stated, has_units = _native.read_functions(path, quantity, averages)
-    except ValueError as error:
-        raise BoltedJointError(str(error)) from error
+    with _matlab73.archive(path) if _matlab73.is_one(path) else contextlib.nullcontext(path) as source:
+        try:
+            curves, coherences, stated, has_units = _native.read_functions(source, quantity, averages)
+        except ValueError as error:
+            raise BoltedJointError(str(error).replace(os.fspath(source), os.fspath(path))) from error
     if not has_units:
         warnings.warn(f"{os.fspath(path)}: the file states no units; SI is assumed", stacklevel=2)
     if not curves:

@@ -53,7 +53,20 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         rows.push(row(name, &beside::start(start)));
     }
     let [from, to] = study.frequency_range_hz.map(number);
-    rows.push(row("Frequency range", &format!("{from} to {to} Hz")));
+    let every = match study.lines.every {
+        1 => String::new(),
+        every => format!(", one line of {every}"),
+    };
+    let bands = study.lines.bands_hz.iter();
+    let bands = bands.map(|band| {
+        let [from, to] = band.map(number);
+        format!("{from} to {to} Hz")
+    });
+    let range = match bands.collect::<Vec<_>>() {
+        bands if bands.is_empty() => format!("{from} to {to} Hz"),
+        bands => bands.join(", "),
+    };
+    rows.push(row("Frequency range", &format!("{range}{every}")));
     rows.push(row("Bands of the average", &beside::bands(report)));
     rows.push(row("Noise", &noise(report)));
     for note in &study.notes {
@@ -121,8 +134,8 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
                     let modes = modes.as_deref().map(file_name).map(|name| {
                         format!(", those not measured from the modes in <code>{name}</code>")
                     });
-                    let file = file_name(&file.path);
-                    format!("FRFs in <code>{file}</code>{}", modes.unwrap_or_default())
+                    let files = file_names(file);
+                    format!("FRFs in {files}{}", modes.unwrap_or_default())
                 }
                 Source::Modal(path) => {
                     format!("FRFs from the modes in <code>{}</code>", file_name(path))
@@ -206,6 +219,13 @@ fn beam(beam: &Beam) -> String {
     )
 }
 
+/// Names of the files of one measurement.
+fn file_names(file: &FrfFile) -> String {
+    let names = file.files();
+    let names = names.map(|path| format!("<code>{}</code>", file_name(path)));
+    names.collect::<Vec<_>>().join(", ")
+}
+
 fn assembly(
     (file, repeats, torque_n_m, level): (&FrfFile, usize, Option<f64>, Option<Level>),
     measured: &Assembly<'_>,
@@ -220,8 +240,8 @@ fn assembly(
         ),
     };
     let mut html = format!(
-        "<code>{}</code>; points {}; {}{copies}, {}",
-        file_name(&file.path),
+        "{}; points {}; {}{copies}, {}",
+        file_names(file),
         dofs(&measured.lines.points),
         counted(measured.fits.len(), "function"),
         counted(frequency_hz.len(), "line")

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use bolted_joint_harmonic::{Derivative, Harmonics, Observed, Side};
 use bolted_joint_joint::JointFile;
-use bolted_joint_study::{Method, StudyText};
+use bolted_joint_study::{Method, StudyText, schema};
 
 use super::RespondError;
 use tables::{Kind, Place, QuantityName, ScaleName, StudyFile};
@@ -196,6 +196,12 @@ pub struct Start {
 }
 
 impl RespondStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// Reads and checks a study and the joint files that it names.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use bolted_joint_frf::structure::ModalModel;
 use bolted_joint_frf::{Dof, FrfSet, Sign};
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{Paths, StudyError, StudyText};
 use bolted_joint_virtual_point::{Impact, Role, Sensor, SetUp, VirtualPointError};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -375,7 +375,8 @@ fn study_model(
     StudyError::model(study.path(), Some(&key.to_string()), source)
 }
 
-/// The file behind the functions of a structure.
-pub(crate) fn file_of(table: &crate::tables::PartTable) -> Option<&PathBuf> {
-    table.frf.as_ref().or(table.modal.as_ref())
+/// The files behind the functions of a structure.
+pub(crate) fn files_of(table: &crate::tables::PartTable) -> Vec<&PathBuf> {
+    let functions = table.frf.iter().flat_map(Paths::iter);
+    functions.chain(&table.modal).collect()
 }

@@ -6,7 +6,7 @@ use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::ModalModel;
 use bolted_joint_joint::JointFile;
 use bolted_joint_space::Dof as Motion;
-use bolted_joint_study::{FrequencyTable, StudyError};
+use bolted_joint_study::{FrequencyTable, LineChoice, StudyError};
 use bolted_joint_virtual_point::Impact;
 use nalgebra::{Matrix6, Vector3};
 
@@ -70,11 +70,11 @@ impl Reader<'_> {
         &self,
         name: &str,
         table: &PartTable,
-        band_hz: [f64; 2],
+        lines: &LineChoice,
     ) -> Result<Source, StudyError> {
         match (&table.frf, &table.modal) {
             (Some(path), None) => {
-                let set = self.functions(&format!("{name}.frf"), path, band_hz)?;
+                let set = self.functions(&format!("{name}.frf"), path, lines)?;
                 Ok(Source::Functions(set))
             }
             (None, Some(path)) => {

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use bolted_joint_frf::{Dof, FrfSet};
 use bolted_joint_joint::InputFile;
-use bolted_joint_study::{Method, StudyError, StudyText, input_file};
+use bolted_joint_study::{Method, Paths, StudyError, StudyText, input_file};
 use nalgebra::Matrix6;
 
-use super::part::{Part, Source, file_of, joined};
+use super::part::{Part, Source, files_of, joined};
 use super::plan::candidates::Candidate;
 use super::response::Scatter;
 use crate::links::{Links, Numbers};
@@ -78,16 +78,16 @@ impl ChainStudy {
             ),
             format_args!("{}, one between each part and the next", tables.len() - 1),
         )?;
-        let band_hz = study.frequency_range_hz(&file.frequency)?;
+        let lines = study.line_choice(&file.frequency)?;
         let assembly = match &file.assembly.frf {
-            Some(path) => Some(reader.functions("assembly.frf", path, band_hz)?),
+            Some(path) => Some(reader.functions("assembly.frf", path, &lines)?),
             None => None,
         };
         let is_measured = assembly.is_some();
         let mut frequency_hz = assembly.as_ref().map(|set| set.frequency_hz().to_vec());
         let mut parts = Vec::new();
         for &(name, table) in &tables {
-            let source = reader.source(name, table, band_hz)?;
+            let source = reader.source(name, table, &lines)?;
             if let Source::Functions(set) = &source {
                 match &frequency_hz {
                     None => frequency_hz = Some(set.frequency_hz().to_vec()),
@@ -133,9 +133,10 @@ impl ChainStudy {
             }
         }
         let mut files = vec![study.record()];
-        let of_parts = tables.iter().map(|&(name, table)| (name, file_of(table)));
-        for (role, path) in of_parts.chain([("assembly", file.assembly.frf.as_ref())]) {
-            if let Some(path) = path {
+        let of_parts = tables.iter().map(|&(name, table)| (name, files_of(table)));
+        let of_assembly = file.assembly.frf.iter().flat_map(Paths::iter).collect();
+        for (role, paths) in of_parts.chain([("assembly", of_assembly)]) {
+            for path in paths {
                 let path = study.resolved(path);
                 files.push(input_file(role, &path, study.folder(), |_, _| {})?);
             }

@@ -1,7 +1,10 @@
 //! A substructure given by its measured modes: shapes, frequencies, damping ratios and residuals.
 
+mod universal;
+
 use std::f64::consts::TAU;
 use std::fmt::Display;
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use num_complex::Complex64;
@@ -28,7 +31,7 @@ struct File {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mode {
-    /// Natural frequency, Hz.
+    /// Natural frequency, Hz; 0 for a motion of a rigid body.
     pub frequency_hz: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
@@ -54,16 +57,30 @@ pub struct ModalModel {
     points: Vec<Dof>,
     modes: Vec<Mode>,
     residuals: Vec<Residual>,
+    /// How a file that is not ours was understood.
+    understood: Vec<(&'static str, String)>,
+    warnings: Vec<String>,
 }
 
 impl ModalModel {
-    /// Reads modal data from a TOML file.
+    /// Reads modal data from a TOML file, or from a universal file with data sets 55.
     ///
     /// # Errors
     /// [`StructureError`], which names the file and the line or key.
     pub fn read(path: &Path) -> Result<Self, StructureError> {
+        if universal::is_one(path) {
+            return universal::read(path);
+        }
         let text = text_file::read(path, "modal data (TOML)")?;
         Self::from_toml(&text, path)
+    }
+
+    /// Modes of a universal file (data sets 55) from any reader; `path` is what messages call it.
+    ///
+    /// # Errors
+    /// [`StructureError`], which names the file and the line or key.
+    pub fn from_universal(reader: impl BufRead, path: &Path) -> Result<Self, StructureError> {
+        universal::read_from(reader, path)
     }
 
     /// Modal data from the text of a TOML file; `path` is what messages call it.
@@ -81,6 +98,8 @@ impl ModalModel {
             points: file.points,
             modes: file.modes,
             residuals: file.residuals,
+            understood: Vec::new(),
+            warnings: Vec::new(),
         };
         model.check()?;
         Ok(model)
@@ -108,6 +127,18 @@ impl ModalModel {
     #[must_use]
     pub fn modes(&self) -> &[Mode] {
         &self.modes
+    }
+
+    /// How a file of another program was understood, by what it is about: units, scale, damping.
+    #[must_use]
+    pub fn understood(&self) -> &[(&'static str, String)] {
+        &self.understood
+    }
+
+    /// What had to be assumed of a file of another program.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// UA (m/N) and LA (m/(N·s²)) between two of the points, by their places, where the file has them for this pair or the
@@ -143,6 +174,11 @@ impl ModalModel {
             let mut sum = Complex64::from(upper - lower_term(lower, omega));
             for mode in &self.modes {
                 let natural = TAU * mode.frequency_hz;
+                if natural == 0.0 {
+                    // H = −U_pr U_qr/ω²
+                    sum -= lower_term(mode.shape[p][0] * mode.shape[q][0], omega);
+                    continue;
+                }
                 let damped = natural * (1.0 - mode.damping_ratio * mode.damping_ratio).sqrt();
                 // λ_r = −ζ_r ω_r + j ω_r √(1 − ζ_r²),  a_r = 1/(2j m_r ω_r √(1 − ζ_r²)),  m_r = 1
                 let pole = Complex64::new(-mode.damping_ratio * natural, damped);
@@ -185,9 +221,18 @@ impl ModalModel {
             }
             let (frequency, ratio) = (mode.frequency_hz, mode.damping_ratio);
             self.ensure(
-                frequency.is_finite() && frequency > 0.0,
+                frequency.is_finite() && frequency >= 0.0,
                 format_args!("{}: found {frequency}", key("frequency_hz")),
-                "a positive frequency in Hz",
+                "a positive frequency in Hz, or 0 for a motion of a rigid body",
+            )?;
+            let is_real = mode.shape.iter().all(|part| part[1] == 0.0);
+            self.ensure(
+                frequency > 0.0 || ratio == 0.0 && is_real,
+                format_args!(
+                    "{}: found 0 with damping or a complex shape",
+                    key("frequency_hz")
+                ),
+                "neither for a motion of a rigid body",
             )?;
             self.ensure(
                 (0.0..1.0).contains(&ratio),
@@ -309,6 +354,22 @@ mod tests {
         assert!((at("1:+Y", "2:+Y") - expected).norm() < 1e-18);
         assert_eq!(at("1:+Y", "2:+Y"), at("2:+Y", "1:+Y"));
         assert_eq!(at("1:-Y", "2:+Y"), -at("1:+Y", "2:+Y"));
+    }
+
+    #[test]
+    fn a_mode_at_zero_is_a_free_mass() {
+        let text = ONE_MODE.replace("10.0", "0").replace("0.02", "0");
+        let found = model(&text)
+            .unwrap()
+            .receptance(dof("1:+Y"), dof("1:+Y"), &[0.0, 20.0]);
+        let omega = TAU * 20.0;
+        // φ²/(−ω²), φ = 2: a mass of 0.25 kg
+        let expected = [0.0, -4.0 / (omega * omega)].map(Complex64::from);
+        assert_eq!(found.unwrap(), expected);
+        let refused = model(&ONE_MODE.replace("10.0", "0"))
+            .unwrap_err()
+            .to_string();
+        assert!(refused.contains("found 0 with damping"), "{refused}");
     }
 
     #[test]

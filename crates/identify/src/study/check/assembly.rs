@@ -1,18 +1,17 @@
 //! `[assembly]`: files of functions, points and torque.
 
-use std::path::Path;
-
 use super::super::FrfFile;
 use super::super::Substructure;
 use super::super::set_up::Accelerometer;
 use super::super::tables::{NoiseTable, UnitsTable};
 use super::stated::not_negative;
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
-use bolted_joint_study::{Stated, StudyError, StudyText};
+use bolted_joint_study::{Paths, Stated, StudyError, StudyText};
 
 /// What a study says of a file of functions.
 #[derive(Clone, Copy)]
 pub(crate) struct MeasuredAs<'t> {
+    pub(crate) coherence: Option<&'t Paths>,
     pub(crate) quantity: Option<Quantity>,
     pub(crate) units: Option<&'t UnitsTable>,
     pub(crate) averages: Option<f64>,
@@ -26,7 +25,7 @@ const MOST_ACCELEROMETER_KG: f64 = 1.0;
 pub(crate) fn frf_file(
     study: &StudyText,
     key: &str,
-    path: &Path,
+    paths: &Paths,
     stated: &MeasuredAs<'_>,
 ) -> Result<FrfFile, StudyError> {
     let named = |UnitsTable { length, force }: &UnitsTable| {
@@ -49,7 +48,15 @@ pub(crate) fn frf_file(
         })
     };
     Ok(FrfFile {
-        path: study.resolved(path),
+        path: study.resolved(&paths.first),
+        further: paths
+            .further
+            .iter()
+            .map(|path| study.resolved(path))
+            .collect(),
+        coherence: stated.coherence.map_or_else(Vec::new, |paths| {
+            paths.iter().map(|path| study.resolved(path)).collect()
+        }),
         quantity: stated.quantity,
         units,
         averages: stated.averages,

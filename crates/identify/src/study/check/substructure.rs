@@ -33,6 +33,7 @@ pub(crate) fn substructure(
         ("quantity", "a quantity", table.quantity.is_some()),
         ("units", "units", table.units.is_some()),
         ("averages", "averages", table.averages.is_some()),
+        ("coherence", "a file", table.coherence.is_some()),
         (
             "accelerometer_mass",
             "a mass",
@@ -56,12 +57,13 @@ pub(crate) fn substructure(
         "the joint's place on this structure, such as { y = \"2:+Y\", theta = \"2:+RZ\" }",
     )?;
     let source = match (table.frf, table.modal, table.beam) {
-        (Some(path), modes, None) => Source::Frf {
+        (Some(paths), modes, None) => Source::Frf {
             file: frf_file(
                 study,
                 key,
-                &path,
+                &paths,
                 &MeasuredAs {
+                    coherence: table.coherence.as_ref(),
                     quantity: table.quantity,
                     units: table.units.as_ref(),
                     averages: table.averages,

@@ -16,7 +16,7 @@ use super::data::{SineOptions, SineRun, Use, read_sine};
 use super::model::{Model, ResponseUnknown, Values};
 use super::terms::TermSet;
 use crate::error::LapError;
-use bolted_joint_study::{Method, StudyText};
+use bolted_joint_study::{Method, StudyText, schema};
 
 pub use self::noise::Noise;
 
@@ -103,6 +103,12 @@ fn name_of(stated: Option<String>, file: &Path) -> String {
 }
 
 impl LapResponseStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// Noise of each kind of data that there is: its name and the fraction.
     #[must_use]
     pub fn noise_by_kind(&self) -> Vec<(&'static str, f64)> {

@@ -6,7 +6,7 @@ mod tables;
 use std::path::{Path, PathBuf};
 
 use bolted_joint_joint::InputFile;
-use bolted_joint_study::{Method, StudyError, StudyText};
+use bolted_joint_study::{Method, StudyError, StudyText, schema};
 
 use super::beam::LayeredBeam;
 use super::beam_mode::{Route, StoredEnergy};
@@ -82,6 +82,12 @@ pub struct Calibration {
 }
 
 impl LayeredBeamStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// Reads and checks a study.
     ///
     /// # Errors

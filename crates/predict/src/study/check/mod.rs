@@ -16,7 +16,7 @@ use crate::surface::ProfileFit;
 use crate::uncertain::{Distribution, InputPlace, Inputs, MonteCarlo, Spread, Uncertain};
 use crate::virtual_material::Layers;
 use bolted_joint_joint::InputFile;
-use bolted_joint_study::{Method, StudyError, StudyText, UncertaintyTable};
+use bolted_joint_study::{Method, StudyError, StudyText, UncertaintyTable, schema};
 use interface::pressure_in_words;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -112,6 +112,12 @@ pub(super) enum ContactInputs {
 }
 
 impl InterfaceStudy {
+    /// The JSON Schema of its file.
+    #[must_use]
+    pub fn schema() -> schema::Schema {
+        schema::of::<StudyFile>()
+    }
+
     /// Reads and checks a study, and the profiles and the field that it names.
     ///
     /// # Errors

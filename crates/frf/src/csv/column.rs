@@ -1,0 +1,257 @@
+//! One column of a table by its name: between which degrees of freedom it lies, what it holds, and in which unit.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use super::decibel::Decibel;
+use super::header::Keys;
+use crate::{Dof, Quantity, TableProblem};
+
+/// A quantity by its name.
+pub(super) fn quantity(word: &str) -> Option<Quantity> {
+    match word.to_lowercase().as_str() {
+        "receptance" => Some(Quantity::Receptance),
+        "mobility" => Some(Quantity::Mobility),
+        "accelerance" => Some(Quantity::Accelerance),
+        _ => None,
+    }
+}
+
+/// What a column holds of its function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Real,
+    Imaginary,
+    Complex,
+    Magnitude,
+    Phase,
+    Coherence,
+}
+
+impl Part {
+    fn from_word(word: &str) -> Option<Self> {
+        Some(match word.to_lowercase().as_str() {
+            "real" | "re" => Self::Real,
+            "imaginary" | "imag" | "im" => Self::Imaginary,
+            "complex" | "cplx" => Self::Complex,
+            "magnitude" | "mag" | "amplitude" | "abs" => Self::Magnitude,
+            "phase" => Self::Phase,
+            "coherence" => Self::Coherence,
+            _ => return None,
+        })
+    }
+
+    /// What messages call it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Real => "real part",
+            Self::Imaginary => "imaginary part",
+            Self::Complex => "complex value",
+            Self::Magnitude => "magnitude",
+            Self::Phase => "phase",
+            Self::Coherence => "coherence",
+        }
+    }
+}
+
+/// The columns that make a complex value; indices from 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Form {
+    Cartesian {
+        real: usize,
+        imaginary: usize,
+    },
+    Polar {
+        magnitude: usize,
+        phase: usize,
+        /// Radians in one unit of the phase.
+        radians: f64,
+        /// Of a magnitude in dB what 0 dB is, in the function's unit.
+        zero_db: Option<f64>,
+    },
+    Complex(usize),
+    /// A coherence alone, in a table of coherences.
+    None,
+}
+
+/// One function of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Columns {
+    pub(super) response: Dof,
+    pub(super) reference: Dof,
+    pub(super) quantity: Option<Quantity>,
+    pub(super) unit: Option<String>,
+    pub(super) form: Form,
+    pub(super) coherence: Option<usize>,
+}
+
+/// One column as its name says.
+pub(super) struct Column {
+    pub(super) response: Dof,
+    pub(super) reference: Dof,
+    pub(super) part: Part,
+    quantity: Option<Quantity>,
+    pub(super) unit: Option<String>,
+}
+
+/// A name without its unit, which stands in brackets at the end.
+pub(super) fn split_unit(name: &str) -> (&str, Option<&str>) {
+    match (name.find('['), name.strip_suffix(']')) {
+        (Some(at), Some(inner)) => (name[..at].trim(), Some(inner[at + 1..].trim())),
+        _ => (name, None),
+    }
+}
+
+impl Column {
+    /// A column by its name; `column` counts from 1.
+    pub(super) fn read(name: &str, column: usize) -> Result<Self, TableProblem> {
+        let at = || format!("column {column}");
+        let no_name = || {
+            TableProblem::at(
+                at(),
+                format_args!("the name \"{}\"", crate::shown(name)),
+                "RESPONSE/REFERENCE, one of real, imaginary, complex, magnitude, phase and coherence, and perhaps a quantity and a [unit], such as \
+                 \"11:+Y/2:+Y accelerance real [m/s^2/N]\"",
+            )
+        };
+        let (text, unit) = split_unit(name);
+        let mut words = text.split_whitespace();
+        let (response, reference) = words
+            .next()
+            .and_then(|pair| pair.split_once('/'))
+            .ok_or_else(no_name)?;
+        let dof = |text: &str| {
+            text.parse::<Dof>()
+                .map_err(|source| TableProblem::Dof { at: at(), source })
+        };
+        let (response, reference) = (dof(response)?, dof(reference)?);
+        let (mut part, mut stated) = (None, None);
+        for word in words {
+            match (Part::from_word(word), quantity(word)) {
+                (Some(found), _) if part.is_none() => part = Some(found),
+                (None, Some(found)) if stated.is_none() => stated = Some(found),
+                _ => return Err(no_name()),
+            }
+        }
+        Ok(Self {
+            response,
+            reference,
+            part: part.ok_or_else(no_name)?,
+            quantity: stated,
+            unit: unit.map(str::to_owned),
+        })
+    }
+
+    /// Radians in one unit of a phase.
+    fn radians(&self, index: usize) -> Result<f64, TableProblem> {
+        match self.unit.as_deref() {
+            Some("rad") => Ok(1.0),
+            Some("deg" | "°") => Ok(PI / 180.0),
+            other => Err(TableProblem::at(
+                format_args!("column {}", index + 1),
+                format_args!("a phase in \"{}\"", other.unwrap_or("no unit")),
+                "[deg] or [rad] after its name",
+            )),
+        }
+    }
+}
+
+impl Columns {
+    /// The function that the columns of one pair make.
+    pub(super) fn from_parts(
+        pair: (Dof, Dof),
+        mut parts: BTreeMap<Part, (usize, Column)>,
+        keys: &Keys,
+        coherence_alone: bool,
+    ) -> Result<Self, TableProblem> {
+        let coherence = parts.remove(&Part::Coherence).map(|(index, _)| index);
+        let found: Vec<&str> = parts.keys().map(|part| part.name()).collect();
+        let found = match found.is_empty() {
+            true => "a coherence alone".to_owned(),
+            false => found.join(" and "),
+        };
+        let mut take = |part| parts.remove(&part);
+        let (real, imaginary) = (take(Part::Real), take(Part::Imaginary));
+        let (magnitude, phase) = (take(Part::Magnitude), take(Part::Phase));
+        let (form, stated) = match (real, imaginary, take(Part::Complex), magnitude, phase) {
+            (Some((real, first)), Some((imaginary, second)), None, None, None) => {
+                (Form::Cartesian { real, imaginary }, vec![first, second])
+            }
+            (None, None, Some((index, column)), None, None) => (Form::Complex(index), vec![column]),
+            (None, None, None, Some((magnitude, first)), Some((phase, mut second))) => {
+                let radians = second.radians(phase)?;
+                second.unit = None;
+                let form = Form::Polar {
+                    magnitude,
+                    phase,
+                    radians,
+                    zero_db: None,
+                };
+                (form, vec![first, second])
+            }
+            (None, None, None, None, None) if coherence_alone => (Form::None, Vec::new()),
+            _ => {
+                let expected = "columns for real and imaginary part, for magnitude and phase, or one of complex numbers";
+                return Err(TableProblem::of_function(pair, found, expected));
+            }
+        };
+        let differing = |first: &str, second: &str| {
+            let found = format!("\"{first}\" in one column and \"{second}\" in another");
+            TableProblem::of_function(pair, found, "the same in both")
+        };
+        let (mut unit, mut quantity) = (None::<String>, None::<Quantity>);
+        for column in &stated {
+            match (&unit, &column.unit) {
+                (Some(first), Some(second)) if first != second => {
+                    return Err(differing(first, second));
+                }
+                (None, Some(_)) => unit.clone_from(&column.unit),
+                _ => {}
+            }
+            match (quantity, column.quantity) {
+                (Some(first), Some(second)) if first != second => {
+                    return Err(differing(&first.to_string(), &second.to_string()));
+                }
+                (None, found) => quantity = found,
+                _ => {}
+            }
+        }
+        let columns = Self {
+            response: pair.0,
+            reference: pair.1,
+            quantity: quantity.or(keys.quantity),
+            unit: unit.or_else(|| keys.unit.clone()),
+            form,
+            coherence,
+        };
+        columns.without_decibels(pair)
+    }
+
+    /// The same with the unit behind the decibels, where the unit is one.
+    fn without_decibels(mut self, pair: (Dof, Dof)) -> Result<Self, TableProblem> {
+        let Some(label) = self.unit.as_deref().filter(|label| Decibel::is_one(label)) else {
+            return Ok(self);
+        };
+        let at = |found: String, expected: &'static str| {
+            Err(TableProblem::of_function(pair, found, expected))
+        };
+        let Some(decibel) = Decibel::read(label) else {
+            return at(
+                format!("the unit \"{}\"", crate::shown(label)),
+                "decibels with what 0 dB is, a number above zero and a unit, such as [dB re 1 m/s^2/N]",
+            );
+        };
+        match &mut self.form {
+            Form::Polar { zero_db, .. } => *zero_db = Some(decibel.reference),
+            Form::None => {}
+            Form::Cartesian { .. } | Form::Complex(_) => {
+                return at(
+                    format!("real and imaginary parts in \"{}\"", crate::shown(label)),
+                    "decibels of a magnitude only, beside a phase",
+                );
+            }
+        }
+        self.unit = Some(decibel.unit.to_owned());
+        Ok(self)
+    }
+}

@@ -1,0 +1,104 @@
+"""Arrays as SciPy and NumPy save them, under the names that people give them."""
+
+import json
+
+import numpy as np
+import pytest
+import scipy.io
+from conftest import POINTS
+
+
+def save(path, arrays):
+    if path.suffix == ".npz":
+        np.savez(path, **arrays)
+    else:
+        scipy.io.savemat(path, {
+            name: np.array(value, dtype=object) if isinstance(value, list) else value for name, value in arrays.items()
+        })
+
+
+def usual(demo, **changed):
+    """The demo's receptances, frequency first."""
+    arrays = {
+        "freq": demo.frequency, "H": np.moveaxis(demo.values, 2, 0), "response": POINTS, "reference": POINTS,
+        "quantity": "receptance", "unit": "m/N", "axes": "frequency,response,reference",
+    }
+    arrays.update(changed)
+    return {name: value for name, value in arrays.items() if value is not None}
+
+
+def renamed(arrays, **names):
+    return {names.get(name, name): value for name, value in arrays.items()}
+
+
+NAMES = {
+    "frequency and FRF": {"freq": "Frequency", "H": "FRF"},
+    "f and H1": {"freq": "f", "H": "H1", "response": "outputs", "reference": "inputs"},
+    "freqs and an unknown name": {"freq": "freqs", "H": "measured_in_march"},
+    "FREQ_HZ and Receptance": {"freq": "FREQ_HZ", "H": "Receptance", "quantity": None, "axes": "AXES"},
+}
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat"])
+@pytest.mark.parametrize("names", NAMES.values(), ids=NAMES)
+def test_usual_names_are_the_same_joint(demo, study, run, names, ending):
+    expected, _ = study()
+    path = study.folder / f"c.{ending}"
+    arrays = usual(demo, **{name: None for name, new in names.items() if new is None})
+    # beside what is not ours
+    arrays["notes"] = "measured in March"
+    arrays["temperature"] = np.array([20.5])
+    save(path, renamed(arrays, **{name: new for name, new in names.items() if new}))
+    found, _ = study(f'frf = "c.{ending}"')
+    # pyuff has read all digits of the universal file
+    np.testing.assert_allclose(found["joint"]["stiffness"], expected["joint"]["stiffness"], rtol=1e-9)
+    shown = json.loads(run("show", "--json", path).stdout)[0]
+    assert f"functions from {names['H']}" in shown["facts"]["arrays"][0]
+    assert f"frequencies from {names['freq']}" in shown["facts"]["arrays"][0]
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat"])
+def test_coherence_alone(demo, study, run, ending):
+    gamma = np.full(demo.values.shape, 1 / (1 + 10 * 0.01**2))
+    path = study.folder / f"coherence.{ending}"
+    save(path, usual(demo, H=None, quantity=None, unit=None, coh=np.moveaxis(gamma, 2, 0), n_averages=10))
+    found, _ = study(f'frf = "assembly.uff"\ncoherence = "coherence.{ending}"')
+    assert 0.9 < found["residual"]["reduced_chi_squared"] < 1.1
+    assert "9, and no function" in run("show", path).stdout
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat"])
+def test_what_is_ambiguous_or_missing_is_named(demo, run, tmp_path, ending):
+    def refused(arrays, *said):
+        path = tmp_path / f"bad.{ending}"
+        save(path, arrays)
+        done = run("show", path, expect=1)
+        for part in (path.name, *said):
+            assert part in done.stderr, done.stderr
+
+    arrays = usual(demo)
+    refused({**arrays, "FRF": arrays["H"]}, "both ", "H", "FRF", "one of them")
+    refused({**arrays, "frequencies": arrays["freq"]}, "both ", "freq", "frequencies")
+    others = renamed(arrays, H="march")
+    refused({**others, "april": others["march"]}, "several complex arrays", "march", "april", "named frf")
+    refused(renamed({**arrays, "H": arrays["H"].real}, H="march"), "found the arrays", "march", "the matrix of functions")
+    refused(renamed(arrays, freq="omega"), "omega", "expected frequency (Hz)")
+    refused(renamed(arrays, response="nodes"), "nodes", "expected response, degrees of freedom")
+    refused(usual(demo, axes=None), "which is either")
+    refused(usual(demo, response=["11:+Y", "11:+Y", "12:+Y"]), "twice")
+    refused(usual(demo, H=arrays["H"][:-1]), "shape")
+
+
+def test_fields_of_a_structure_get_the_command_that_frees_them(demo, run, tmp_path):
+    path = tmp_path / "structure.mat"
+    scipy.io.savemat(path, {"data": {"freq": demo.frequency, "H": demo.values}})
+    done = run("show", path, expect=1)
+    assert "structure.mat" in done.stderr and "'-struct'" in done.stderr
+
+
+def test_newer_matlab_files_are_told_how_to_be_saved(run, tmp_path):
+    path = tmp_path / "newer.mat"
+    path.write_bytes(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM" + bytes(384) + b"\x89HDF\r\n\x1a\n")
+    done = run("show", path, expect=1)
+    for part in ("newer.mat", "HDF5", "'-v7'", "Python module"):
+        assert part in done.stderr

@@ -1,7 +1,7 @@
 //! Draws in parts: `--draws 0..1000` writes some of them, `merge` puts them together.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
@@ -50,7 +50,7 @@ pub(super) fn alone(asked: &[(&'static str, bool)]) -> Result<(), CliError> {
 
 /// Writes a part of the draws and says so.
 pub(super) fn write_part(
-    output: &PathBuf,
+    output: &Path,
     origin: Origin,
     results: Vec<String>,
     first: u64,

@@ -194,7 +194,8 @@ mod tests {
 
     #[test]
     fn what_differs_is_named() {
-        let rows: [(fn(&mut DrawsFile), &str); 7] = [
+        type Change = fn(&mut DrawsFile);
+        let rows: [(Change, &str); 7] = [
             (
                 |file| file.origin.version = "0.2.0".to_owned(),
                 "the program bolted-joint 0.2.0, expected bolted-joint 0.1.0",

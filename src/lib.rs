@@ -56,6 +56,7 @@ pub use bolted_joint_check as check;
 pub use bolted_joint_compare as compare;
 pub use bolted_joint_convert as convert;
 pub use bolted_joint_cosimulation as cosimulation;
+pub use bolted_joint_draws as draws;
 pub use bolted_joint_export as export;
 pub use bolted_joint_files::TextFileError;
 pub use bolted_joint_frf as frf;

@@ -32,6 +32,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use beams::identified;
+use bolted_joint::draws::Share;
 use bolted_joint::identify::{
     BandChoice, BandChoices, Bootstrap, Lines, Noise, NoiseLevel, Options,
 };
@@ -199,6 +200,7 @@ fn time() {
         bootstrap: Some(Bootstrap {
             draws: 1000,
             seed: 1,
+            share: Share::Whole,
         }),
         ..Options::default()
     };

@@ -12,6 +12,7 @@ use bolted_joint::check::CheckError;
 use bolted_joint::compare::CompareError;
 use bolted_joint::convert::ConvertError;
 use bolted_joint::cosimulation::CouplingError;
+use bolted_joint::draws::DrawsError;
 use bolted_joint::export::{DateError, ExportError};
 use bolted_joint::frf::FrfError;
 use bolted_joint::identify::IdentifyError;
@@ -79,6 +80,7 @@ from_the_library!(
     CompareError,
     DateError,
     DraftError,
+    DrawsError,
     ExportError,
     FrfError,
     IdentifyError,

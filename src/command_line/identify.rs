@@ -6,12 +6,14 @@ mod lap;
 mod space;
 
 use std::fmt::Write as _;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use num_complex::Complex64;
 use serde_json::json;
 
+use bolted_joint::draws::{Merged, Origin, Share};
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::{
     Bootstrap, BootstrapResult, Identification, JointEstimate, Study, identify_and_draw,
@@ -21,6 +23,7 @@ use bolted_joint::report::{FrfFigure, FrfPanel, IdentificationReport};
 use bolted_joint::study::{Method, StudyText};
 
 use super::bolt_files::of_bolts;
+use super::draws::{alone, among, numbers, write_part};
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
 use super::kind::expect_study;
@@ -32,34 +35,45 @@ use super::table::{Table, number};
 #[derive(Debug, Args)]
 pub(super) struct IdentifyArguments {
     /// The study: what was measured, on which points, and which joint model to identify (TOML)
-    study: PathBuf,
+    pub(super) study: PathBuf,
     /// Joint file to write; NAME.BOLT.joint.json for each bolt where bolts have different joints
     #[arg(short, long, value_name = "NAME.joint.json")]
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Also draw measured and regenerated FRFs
     #[arg(long, value_name = "NAME.svg")]
-    figure: Option<PathBuf>,
+    pub(super) figure: Option<PathBuf>,
     /// Also write a report: one page with everything that was measured, assumed and found
     #[arg(long, value_name = "NAME.html")]
-    report: Option<PathBuf>,
+    pub(super) report: Option<PathBuf>,
     /// Repeat the estimate on so many data sets drawn from the fitted model
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
-    bootstrap: Option<u32>,
+    pub(super) bootstrap: Option<u32>,
     /// Seed of the bootstrap [default: 1]
     #[arg(long, requires = "bootstrap")]
-    seed: Option<u64>,
+    pub(super) seed: Option<u64>,
+    /// Make these of the bootstrap's draws alone, such as 1000..2000, and write them to --output for `merge`
+    #[arg(long, value_name = "FIRST..END", value_parser = numbers, requires = "bootstrap")]
+    pub(super) draws: Option<Range<u64>>,
     /// Do not compare the joint model with others, as `rivals = false` in the study's [joint]
     #[arg(long)]
-    no_rivals: bool,
+    pub(super) no_rivals: bool,
     /// Print the result as JSON
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 /// At most so many functions are drawn.
 const PANELS: usize = 3;
 
 pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
+    run_with(arguments, None)
+}
+
+/// The same with draws that have been made in parts.
+pub(super) fn run_with(
+    arguments: &IdentifyArguments,
+    parts: Option<Merged>,
+) -> Result<(), CliError> {
     let taken = check_outputs(
         &arguments.study,
         &[
@@ -89,22 +103,32 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let mut study = Study::of(&study)?;
     study.compares_rivals &= !arguments.no_rivals;
+    if let Some(numbers) = &arguments.draws {
+        return part(arguments, study, numbers);
+    }
     let outputs = of_bolts(&arguments.output, &study.bolts);
     if outputs.len() > 1 {
         for output in &outputs {
             check_output(output, &taken)?;
         }
     }
-    let bootstrap = arguments.bootstrap.map(|draws| Bootstrap {
-        draws: draws as usize,
-        seed: arguments.seed.unwrap_or(1),
-    });
-    let progress = Progress::new(
-        "identifying",
-        bootstrap.map_or(0, |bootstrap| bootstrap.draws),
-    );
+    let bootstrap = match &parts {
+        Some(parts) => Some(Bootstrap {
+            draws: parts.origin.draws as usize,
+            seed: parts.origin.seed,
+            share: Share::Made(parts.draws.as_slice().into()),
+        }),
+        None => all_draws(arguments),
+    };
+    let count = arguments.bootstrap.unwrap_or(0);
+    let progress = Progress::new("identifying", count as usize);
     let found = identify_and_draw(&study, bootstrap, &progress)?;
     drop(progress);
+    if let Some(parts) = &parts {
+        let origin = origin(&found, parts.origin.draws, parts.origin.seed)?;
+        let names = found.estimate.names_of_draws(found.bolts.with_own_joint());
+        parts.check(&origin, &names)?;
+    }
     let joint_files = found.joint_files();
     let drawing = arguments
         .figure
@@ -182,6 +206,60 @@ pub(super) fn run(arguments: &IdentifyArguments) -> Result<(), CliError> {
     }
     print(&text)?;
     CliError::unless_usable(&outputs[0], &found.reasons_against)
+}
+
+/// The whole bootstrap that is asked for.
+fn all_draws(arguments: &IdentifyArguments) -> Option<Bootstrap> {
+    let draws = arguments.bootstrap?;
+    Some(Bootstrap {
+        draws: draws as usize,
+        seed: arguments.seed.unwrap_or(1),
+        share: Share::Whole,
+    })
+}
+
+/// What draws about the joint that was found are made from.
+fn origin(found: &Identification, draws: u64, seed: u64) -> Result<Origin, CliError> {
+    let files = found.joint_files();
+    let files = files.iter().map(|(_, file)| file);
+    Ok(Origin::of(&found.name, files, draws, seed)?)
+}
+
+/// Makes a part of the draws and writes it.
+fn part(
+    arguments: &IdentifyArguments,
+    mut study: Study,
+    numbers: &Range<u64>,
+) -> Result<(), CliError> {
+    alone(&[
+        ("--figure", arguments.figure.is_some()),
+        ("--report", arguments.report.is_some()),
+    ])?;
+    let Some(all) = all_draws(arguments) else {
+        return Ok(());
+    };
+    among(numbers, all.draws as u64)?;
+    // draws are about the joint that is found, whatever others are beside it
+    study.compares_rivals = false;
+    let (draws, seed) = (all.draws as u64, all.seed);
+    let bootstrap = Bootstrap {
+        share: Share::Part(numbers.clone()),
+        ..all
+    };
+    let progress = Progress::new("identifying", (numbers.end - numbers.start) as usize);
+    let found = identify_and_draw(&study, Some(bootstrap), &progress)?;
+    drop(progress);
+    let made = found.estimate.draws.clone().ok_or_else(|| {
+        let expected =
+            "a joint with which the model can be computed: there is nothing to draw from";
+        CliError::option("--draws", "none", expected)
+    })?;
+    let names = found.estimate.names_of_draws(found.bolts.with_own_joint());
+    let origin = origin(&found, draws, seed)?;
+    let output = &arguments.output;
+    write_part(output, origin, names, numbers.start, made, arguments.json)?;
+    warn(&warnings(&found));
+    CliError::unless_usable(output, &found.reasons_against)
 }
 
 /// Writes every joint file and what goes with them or, if one cannot be written, none.

@@ -8,6 +8,7 @@ mod communication_step;
 mod compare;
 mod convert;
 mod demo;
+mod draws;
 mod error;
 mod export;
 mod identified_from;
@@ -15,6 +16,7 @@ mod identify;
 mod init;
 mod invocation;
 mod kind;
+mod merge;
 mod output;
 mod predict;
 mod progress;
@@ -37,6 +39,7 @@ use demo::DemoArguments;
 use export::ExportArguments;
 use identify::IdentifyArguments;
 use init::InitArguments;
+use merge::MergeArguments;
 use predict::PredictArguments;
 use reproduce::ReproduceArguments;
 use respond::RespondArguments;
@@ -71,6 +74,8 @@ enum Command {
     Identify(IdentifyArguments),
     /// Predict a joint from surfaces, materials and bolts, before anything is built, and write its joint file
     Predict(PredictArguments),
+    /// Put draws together that were made in parts, on one machine or on many
+    Merge(MergeArguments),
     /// Write an FMU from a joint file
     Export(ExportArguments),
     /// Tell what is in measurements, studies, joint files, FMUs, modes and assemblies, and draw it
@@ -147,6 +152,7 @@ fn run(arguments: Arguments) -> u8 {
         Command::Init(arguments) => init::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Predict(arguments) => predict::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

@@ -3,50 +3,75 @@
 mod interface;
 mod layered_beam;
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::Args;
 
+use super::draws::{alone, numbers};
 use super::error::CliError;
 use super::kind::expect_study;
+use bolted_joint::draws::Merged;
 use bolted_joint::study::{Method, StudyText};
 
 /// `predict`
 #[derive(Debug, Args)]
 pub(super) struct PredictArguments {
     /// The study: surfaces, materials, bolts and the model to take (TOML)
-    study: PathBuf,
+    pub(super) study: PathBuf,
     /// Joint file to write
     #[arg(short, long, value_name = "NAME.joint.json")]
-    output: PathBuf,
+    pub(super) output: PathBuf,
     /// Also write a report: one page with assumptions, surfaces, pressure, stiffness and damping
     #[arg(long, value_name = "NAME.html")]
-    report: Option<PathBuf>,
+    pub(super) report: Option<PathBuf>,
     /// Also write the 6×6 stiffness and damping of the interface as a table
     #[arg(long, value_name = "NAME.csv")]
-    matrix_csv: Option<PathBuf>,
+    pub(super) matrix_csv: Option<PathBuf>,
     /// Also write them as an ANSYS macro of MATRIX27 elements between two nodes
     #[arg(long, value_name = "NAME.mac")]
-    matrix27: Option<PathBuf>,
+    pub(super) matrix27: Option<PathBuf>,
     /// Also write pressure, stiffness and damping of each element of the interface
     #[arg(long, value_name = "NAME.csv")]
-    field_csv: Option<PathBuf>,
+    pub(super) field_csv: Option<PathBuf>,
     /// Also write the virtual layer's material (method virtual-material): a table, or a card for Abaqus or ANSYS
     #[arg(long, value_name = "NAME.csv|NAME.inp|NAME.mac")]
-    material_card: Option<PathBuf>,
+    pub(super) material_card: Option<PathBuf>,
     /// Also write frequencies and damping over the amplitude (method layered-beam)
     #[arg(long, value_name = "NAME.csv")]
-    damping_csv: Option<PathBuf>,
+    pub(super) damping_csv: Option<PathBuf>,
     /// Also draw damping over the amplitude (method layered-beam)
     #[arg(long, value_name = "NAME.svg")]
-    figure: Option<PathBuf>,
+    pub(super) figure: Option<PathBuf>,
+    /// Make these of the study's draws alone, such as 1000..2000, and write them to --output for `merge`
+    #[arg(long, value_name = "FIRST..END", value_parser = numbers)]
+    pub(super) draws: Option<Range<u64>>,
     /// Print the result as JSON
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
+    run_with(arguments, None)
+}
+
+/// The same with draws that have been made in parts.
+pub(super) fn run_with(
+    arguments: &PredictArguments,
+    parts: Option<Merged>,
+) -> Result<(), CliError> {
     expect_study(&arguments.study)?;
+    if arguments.draws.is_some() {
+        alone(&[
+            ("--report", arguments.report.is_some()),
+            ("--matrix-csv", arguments.matrix_csv.is_some()),
+            ("--matrix27", arguments.matrix27.is_some()),
+            ("--field-csv", arguments.field_csv.is_some()),
+            ("--material-card", arguments.material_card.is_some()),
+            ("--damping-csv", arguments.damping_csv.is_some()),
+            ("--figure", arguments.figure.is_some()),
+        ])?;
+    }
     let study = StudyText::read(&arguments.study)?;
     let methods = [
         Method::FractalContact,
@@ -57,7 +82,7 @@ pub(super) fn run(arguments: &PredictArguments) -> Result<(), CliError> {
     study.check_method(method, &methods)?;
     match method {
         Method::LayeredBeam => layered_beam::run(arguments, &study),
-        _ => interface::run(arguments, &study, method),
+        _ => interface::run(arguments, &study, method, parts),
     }
 }
 

@@ -20,6 +20,7 @@ mod export;
 mod identified;
 mod init;
 mod joint_file;
+mod merge;
 mod modal_file;
 mod model_choice;
 mod modes_beside;

@@ -20,8 +20,14 @@ const TICK_FONT: f64 = 12.0;
 const EXPONENT_FONT: f64 = 9.5;
 /// Room to the left of a strip for the labels of its value axis (pixels).
 pub const VALUE_LABELS: f64 = 64.0;
-/// Distance of the value axis' name from the strip (pixels).
+/// Least distance of the value axis' name from the strip (pixels), and of its baseline from the longest label.
 const NAME_DISTANCE: f64 = 50.0;
+const NAME_GAP: f64 = 5.0;
+/// Distance of the labels from the strip (pixels).
+const LABEL_GAP: f64 = 6.0;
+/// Widths of a digit and of a point, parts of the font size, in the widest of the usual fonts.
+const DIGIT: f64 = 0.64;
+const FULL_STOP: f64 = 0.32;
 /// How far the baseline of a text lies below its middle, part of the font size.
 const MIDDLE: f64 = 0.36;
 const TICK: f64 = 5.0;
@@ -130,21 +136,27 @@ impl Strip {
             .word("text-anchor", "end")
             .word("fill", TEXT)
             .open();
-        for tick in self.value_ticks().major {
+        let ticks = self.value_ticks().major;
+        let widest = ticks.iter().map(|tick| width(&tick.label));
+        let widest = widest.fold(0.0, f64::max);
+        for tick in ticks {
             let Some(up) = self.value.and_then(|axis| axis.position(tick.value)) else {
                 continue;
             };
             let baseline = self.top + self.height * (1.0 - up) + MIDDLE * TICK_FONT;
             let text = svg
                 .element("text")
-                .number("x", self.left - 6.0)
+                .number("x", self.left - LABEL_GAP)
                 .number("y", baseline);
             text.open();
             write_label(tick.label, svg);
             svg.close();
         }
         svg.close();
-        let (x, y) = (self.left - NAME_DISTANCE, self.top + 0.5 * self.height);
+        let distance = NAME_DISTANCE
+            .max(LABEL_GAP + widest + NAME_GAP)
+            .min((self.left - TICK_FONT).max(NAME_DISTANCE));
+        let (x, y) = (self.left - distance, self.top + 0.5 * self.height);
         svg.element("text")
             .word("transform", &format!("translate({x} {y}) rotate(-90)"))
             .number("font-size", TICK_FONT)
@@ -226,6 +238,23 @@ fn write_label(label: TickLabel, svg: &mut Svg) {
     }
 }
 
+/// How wide a label may be (pixels).
+fn width(label: &TickLabel) -> f64 {
+    let em: f64 = match label {
+        TickLabel::Plain(text) => text
+            .chars()
+            .map(|character| match character {
+                '.' | '·' => FULL_STOP,
+                _ => DIGIT,
+            })
+            .sum(),
+        // 10 and an exponent, after the mantissa and a point
+        TickLabel::Power { mantissa: 1, .. } => 4.0 * DIGIT,
+        TickLabel::Power { .. } => 5.0 * DIGIT + FULL_STOP,
+    };
+    em * TICK_FONT
+}
+
 /// A plain line along `path`, nothing if that is empty.
 pub fn draw_path(svg: &mut Svg, path: &PathData, colour: &str, width: f64) {
     if !path.is_empty() {
@@ -245,4 +274,43 @@ pub fn draw_path(svg: &mut Svg, path: &PathData, colour: &str, width: f64) {
 )]
 fn count(ticks: f64) -> u32 {
     ticks.floor().max(1.0) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_of_the_value_axis_stands_beside_the_longest_label() {
+        let name_at = |low: f64, high: f64| {
+            let strip = Strip {
+                left: 76.0,
+                top: 0.0,
+                width: 300.0,
+                height: 150.0,
+                frequency: Axis::Counted { count: 2 },
+                value: Some(Axis::Linear { low, high }),
+            };
+            let mut svg = Svg::new(400.0, 200.0, "");
+            strip.draw_value_labels("N", &mut svg);
+            let text = svg.finish();
+            let (_, after) = text.split_once("translate(").unwrap();
+            after.split_once(' ').unwrap().0.parse::<f64>().unwrap()
+        };
+        assert_eq!(name_at(0.0, 1.0), 76.0 - NAME_DISTANCE);
+        // −0.835 is six characters, five of them wide: 5 · 7.68 + 3.84 and both gaps are 53
+        assert!(name_at(-0.842, -0.824) < 76.0 - 53.0);
+        assert!(name_at(-0.842, -0.824) > TICK_FONT);
+    }
+
+    #[test]
+    fn things_that_are_counted_have_a_tick_each() {
+        let axis = Axis::Counted { count: 3 };
+        let ticks = axis.ticks(8);
+        let values: Vec<f64> = ticks.major.iter().map(|tick| tick.value).collect();
+        assert_eq!((values, ticks.minor.len()), (vec![1.0, 2.0, 3.0], 0));
+        assert_eq!(axis.position(2.0), Some(0.5));
+        // no two labels on each other
+        assert_eq!(Axis::Counted { count: 40 }.ticks(8).major.len(), 8);
+    }
 }

@@ -150,7 +150,7 @@ pub fn identify_and_draw(
             .collect(),
         has_budget,
         // with causes it draws these, too, and follows
-        bootstrap: bootstrap.filter(|_| !has_budget),
+        bootstrap: bootstrap.clone().filter(|_| !has_budget),
         progress: Some(&|| watch.drawn()),
     };
     let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
@@ -197,21 +197,21 @@ pub fn identify_and_draw(
         Some(_) => Vec::new(),
         None => slips,
     };
-    let estimate = match (&systematic, bootstrap) {
+    let estimate = match (&systematic, &bootstrap) {
         (Some(found), bootstrap) => {
-            let draws = bootstrap.map(|bootstrap| {
+            let draws = bootstrap.as_ref().map(|bootstrap| {
                 let progress = || watch.drawn();
                 let draws = found.draws(study, &all, &estimate, bootstrap, &progress);
                 (bootstrap, draws)
             });
             let estimate = estimate.with_systematic_errors(found, study.bolts.with_own_joint());
             match draws {
-                Some((bootstrap, draws)) => estimate.with_draws(bootstrap, &draws),
+                Some((bootstrap, draws)) => estimate.with_draws(bootstrap, draws),
                 None => estimate,
             }
         }
         (None, Some(_)) if has_budget => {
-            options.bootstrap = bootstrap;
+            options.bootstrap.clone_from(&bootstrap);
             estimated(study, &all, &options)?
         }
         (None, _) => estimate,

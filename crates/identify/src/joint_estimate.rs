@@ -1,8 +1,9 @@
 //! The joint of one torque, or of all, with how sure it is.
 
+use bolted_joint_draws::Draw;
 use bolted_joint_joint::Drawn;
 use bolted_joint_statistics::{quantile, student_975};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::assessment;
 use super::bands::UsedBands;
@@ -289,11 +290,16 @@ impl CovarianceOfAll {
 impl BootstrapResult {
     /// What the draws show of those unknowns that they hold.
     pub(super) fn of(
-        bootstrap: Bootstrap,
+        bootstrap: &Bootstrap,
         drawn: Drawn,
-        draws: &[DVector<f64>],
+        draws: &[Draw],
         own: std::ops::Range<usize>,
     ) -> Self {
+        let draws: Vec<&[f64]> = draws
+            .iter()
+            .filter_map(Draw::values)
+            .filter(|values| own.end <= values.len())
+            .collect();
         let sorted = |unknown: usize| {
             let mut values: Vec<f64> = draws.iter().map(|draw| draw[unknown]).collect();
             values.sort_by(f64::total_cmp);

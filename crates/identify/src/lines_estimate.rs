@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
+use bolted_joint_draws::Draw;
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{ComplexMatrix, SingularAssembly};
 use bolted_joint_joint::Drawn;
@@ -99,6 +100,8 @@ pub struct LinesEstimate {
     pub unrest: f64,
     /// How much of what seems to be information is noise of the substructures, where several bolts have joints of their own.
     pub(super) observed: Option<Observed>,
+    /// The draws of the bootstrap that were made or given, where one was asked for: the unknowns of one torque after the other.
+    pub draws: Option<Vec<Draw>>,
     choice: Option<ModelChoice>,
     torque_choice: Option<TorqueChoice>,
     /// What the user should know before using the estimate.
@@ -151,17 +154,18 @@ impl LinesEstimate {
 
     /// The same with what a bootstrap of noise and causes shows.
     #[must_use]
-    pub(super) fn with_draws(mut self, bootstrap: Bootstrap, draws: &[DVector<f64>]) -> Self {
+    pub(super) fn with_draws(mut self, bootstrap: &Bootstrap, draws: Vec<Draw>) -> Self {
         let size = self.layout.unknowns();
         for (number, joint) in self.joints.iter_mut().enumerate() {
             let own = number * size..(number + 1) * size;
             joint.bootstrap = Some(BootstrapResult::of(
                 bootstrap,
                 Drawn::NoiseAndSetUp,
-                draws,
+                &draws,
                 own,
             ));
         }
+        self.draws = Some(draws);
         self
     }
 
@@ -279,6 +283,18 @@ impl LinesEstimate {
         self.torque_choice.as_ref()
     }
 
+    /// Names of the unknowns that a draw of the bootstrap has: `left k_yy@10` is that of the bolt `left` at 10 N·m.
+    #[must_use]
+    pub fn names_of_draws(&self, bolts: &[String]) -> Vec<String> {
+        let joints = self.joints.iter();
+        let names = joints.flat_map(|joint| {
+            let at = joint.torque_n_m.map(|torque| format!("@{torque}"));
+            let unknowns = joint.covariance.unknowns.iter();
+            unknowns.map(move |own| own.label(bolts) + at.as_deref().unwrap_or_default())
+        });
+        names.collect()
+    }
+
     /// The bootstrap, where one was asked for.
     #[must_use]
     pub fn bootstrap(&self) -> Option<&BootstrapResult> {
@@ -368,7 +384,7 @@ pub fn identify_lines(
     let names = options.bolts.with_own_joint();
     let covariance = CovarianceOfAll::of(&objective, noise, &found, observed.as_ref());
     let passive = passive::passive(&objective, &layout, noise, estimate);
-    let draws = options.bootstrap.and_then(|bootstrap| {
+    let draws = options.bootstrap.as_ref().and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
         let draws = bootstrap::draws(&objective, &places, noise, estimate, bootstrap, progress)?;
         Some((bootstrap, draws))
@@ -394,7 +410,7 @@ pub fn identify_lines(
             bands,
             covariance: covariance.of_torque(&objective, &layout, names, &found, joint),
             bootstrap: draws.as_ref().map(|(bootstrap, draws)| {
-                BootstrapResult::of(*bootstrap, Drawn::Noise, draws, own.clone())
+                BootstrapResult::of(bootstrap, Drawn::Noise, draws, own.clone())
             }),
             whole: layout.whole(passive.as_ref().unwrap_or(&free)),
             layout: layout.clone(),
@@ -448,6 +464,7 @@ pub fn identify_lines(
             found.used.chosen.iter().map(Chosen::count).sum(),
             all.iter().map(|lines| lines.frequency_hz.len()).sum(),
         ),
+        draws: draws.map(|(_, draws)| draws),
         choice,
         torque_choice,
         warnings,

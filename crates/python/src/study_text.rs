@@ -1,5 +1,8 @@
 //! Studies that Python has as dictionaries.
 
+use std::path::PathBuf;
+
+use bolted_joint::study::StudyText;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -22,4 +25,14 @@ pub(super) fn to_json(toml: &str) -> PyResult<String> {
     let refused = |found: String| PyValueError::new_err(format!("study: {found}"));
     let tables: toml::Table = toml::from_str(toml).map_err(|error| refused(error.to_string()))?;
     serde_json::to_string(&tables).map_err(|error| refused(error.to_string()))
+}
+
+/// The command that the study in a file is for: `identify`, `predict` or `respond`.
+///
+/// Raises `ValueError` where the file cannot be read or names no method.
+#[pyfunction]
+pub(super) fn command_of(study: PathBuf) -> PyResult<&'static str> {
+    let method = StudyText::read(&study).and_then(|study| study.method());
+    let command = method.map(|method| method.command());
+    command.map_err(|error| PyValueError::new_err(error.to_string()))
 }

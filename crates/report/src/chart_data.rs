@@ -93,7 +93,7 @@ impl Chart<'_> {
 
 fn axis(axis: Axis) -> Value {
     let scale = match axis {
-        Axis::Linear { .. } => "linear",
+        Axis::Linear { .. } | Axis::Counted { .. } => "linear",
         Axis::Logarithmic { .. } => "logarithmic",
         Axis::Phase => "phase",
     };

@@ -40,6 +40,7 @@ pub fn comparison_figure(comparison: &Comparison) -> String {
     IntervalFigure {
         title: &format!("Numbers of the joints {}", names.join(", ")),
         across: "joint, in the order given",
+        is_counted: true,
         panels: comparison.rows.iter().enumerate().map(panel).collect(),
     }
     .to_svg()

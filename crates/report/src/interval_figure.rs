@@ -44,6 +44,8 @@ pub(super) struct IntervalFigure<'a> {
     pub(super) title: &'a str,
     /// Name and unit of the abscissa.
     pub(super) across: &'a str,
+    /// Whether the abscissa counts things, between which there is nothing.
+    pub(super) is_counted: bool,
     /// Row by row.
     pub(super) panels: Vec<Panel>,
 }
@@ -57,7 +59,12 @@ impl IntervalFigure<'_> {
         let mut svg = Svg::new(WIDTH, height, self.title);
         svg.paper(WIDTH, height, Some(6.0), FONTS);
         let places = self.panels.iter().flat_map(|panel| &panel.values);
-        let across = roomy(places.map(|value| value.at));
+        let across = match self.is_counted {
+            true => Axis::Counted {
+                count: places.map(|value| value.at as u32).max().unwrap_or(0),
+            },
+            false => roomy(places.map(|value| value.at)),
+        };
         for (number, panel) in self.panels.iter().enumerate() {
             let (row, column) = (number / COLUMNS, number % COLUMNS);
             let values = panel.values.iter().filter_map(|value| value.value);
@@ -81,7 +88,7 @@ impl IntervalFigure<'_> {
                 &panel.name,
             );
             strip.draw_grid(&mut svg);
-            panel.draw(&strip, factor, &mut svg);
+            panel.draw(&strip, factor, !self.is_counted, &mut svg);
             strip.draw_axes(self.across, &unit, &mut svg);
         }
         svg.finish()
@@ -89,7 +96,7 @@ impl IntervalFigure<'_> {
 }
 
 impl Panel {
-    fn draw(&self, strip: &Strip, factor: f64, svg: &mut Svg) {
+    fn draw(&self, strip: &Strip, factor: f64, is_joined: bool, svg: &mut Svg) {
         let [mut join, mut whiskers, mut dots] = [(); 3].map(|()| PathData::default());
         let mut before: Option<Point> = None;
         for Estimated { at, value } in &self.values {
@@ -101,7 +108,7 @@ impl Panel {
                 before = None;
                 continue;
             };
-            if let Some(before) = before {
+            if let Some(before) = before.filter(|_| is_joined) {
                 join.polyline(&[before, point]);
             }
             before = Some(point);
@@ -158,6 +165,7 @@ mod tests {
         let svg = IntervalFigure {
             title: "a < b",
             across: "torque, N·m",
+            is_counted: false,
             panels: vec![Panel {
                 name: "k_yy".to_owned(),
                 unit: "N/m".to_owned(),

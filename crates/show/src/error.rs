@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use bolted_joint_assembly::AssemblyError;
 use bolted_joint_check::CheckError;
+use bolted_joint_draws::DrawsError;
 use bolted_joint_frf::FrfError;
 use bolted_joint_frf::structure::StructureError;
 use bolted_joint_joint::JointFileError;
@@ -40,6 +41,9 @@ pub enum ShowError {
     /// A joint file that cannot be read.
     #[error(transparent)]
     JointFile(#[from] JointFileError),
+    /// Draws that cannot be read.
+    #[error(transparent)]
+    Draws(#[from] DrawsError),
     /// An FMU that cannot be looked into.
     #[error(transparent)]
     Fmu(#[from] CheckError),

@@ -28,6 +28,8 @@ pub enum FileKind {
     Assembly,
     /// A joint file.
     JointFile,
+    /// Draws of a bootstrap or a Monte Carlo simulation.
+    Draws,
     /// An FMU.
     Fmu,
     /// A system of FMUs.
@@ -98,6 +100,9 @@ fn text(path: &Path) -> Option<String> {
 
 /// A joint file is told by its format or, if it is damaged, by what stands in it.
 fn of_json(text: &str) -> FileKind {
+    if text.contains("\"bolted-joint-draws/") {
+        return FileKind::Draws;
+    }
     let is_joint = match serde_json::from_str::<serde_json::Value>(text) {
         Ok(value) => {
             let format = value.get("format").and_then(serde_json::Value::as_str);
@@ -154,6 +159,7 @@ impl fmt::Display for FileKind {
             Self::Study(None) => f.write_str("a study"),
             Self::Assembly => f.write_str("an assembly file"),
             Self::JointFile => f.write_str("a joint file"),
+            Self::Draws => f.write_str("a file of draws"),
             Self::Fmu => f.write_str("an FMU"),
             Self::Ssp => f.write_str("a system of FMUs (SSP)"),
             Self::OtherJson => f.write_str("a JSON file"),
@@ -181,6 +187,9 @@ pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
         }
         FileKind::Assembly => Some(format!("bolted-joint respond {path} -o NAME.csv")),
         FileKind::JointFile => Some(format!("bolted-joint export {path} -o NAME.fmu")),
+        FileKind::Draws => Some(format!(
+            "bolted-joint merge STUDY.toml {path} ... -o NAME.joint.json"
+        )),
         FileKind::Fmu => Some(format!("bolted-joint check {path}")),
         FileKind::Functions(_) | FileKind::Matrices | FileKind::Modes | FileKind::Study(None) => {
             Some(format!("bolted-joint show {path}"))
@@ -201,7 +210,7 @@ mod tests {
     fn files_are_told_by_what_is_in_them() {
         let folder = tempfile::tempdir().unwrap();
         #[rustfmt::skip]
-        let cases: [(&str, &[u8], FileKind); 15] = [
+        let cases: [(&str, &[u8], FileKind); 16] = [
             ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.csv", b"1,2\n", FileKind::Functions(Container::Table)),
@@ -210,6 +219,7 @@ mod tests {
             ("a.dat", b"MATLAB 5.0 MAT-file", FileKind::Functions(Container::Matlab)),
             ("j.joint.json", b"{\"format\": \"bolted-joint/1\"}", FileKind::JointFile),
             ("j.txt", b"{\"format\": \"bolted-joint/1\", ", FileKind::JointFile),
+            ("d.json", b"{\"format\": \"bolted-joint-draws/1\"}", FileKind::Draws),
             ("o.json", b"{\"a\": 1}", FileKind::OtherJson),
             ("c.toml", b"# a study\nmethod = \"respond\"\n", FileKind::Study(Some(Method::Respond))),
             ("s.toml", b"method = \"respond\"\n", FileKind::Study(Some(Method::Respond))),

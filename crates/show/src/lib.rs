@@ -7,6 +7,7 @@
 
 mod assembly;
 mod draft;
+mod draws;
 mod error;
 mod fmu;
 mod functions;
@@ -41,6 +42,7 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
         FileKind::Study(_) => study::shown(&StudyText::read(path)?)?,
         FileKind::Assembly => assembly::shown(&StudyText::read(path)?)?,
         FileKind::JointFile => joint::shown(path)?,
+        FileKind::Draws => draws::shown(path)?,
         FileKind::Fmu => fmu::shown(path)?,
         FileKind::Folder | FileKind::Ssp | FileKind::OtherJson | FileKind::OtherZip => {
             return Err(ShowError::Kind {

@@ -5,11 +5,13 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::super::draws::{among, write_part};
 use super::super::error::CliError;
 use super::super::output::{ANY, CSV, Ending, HTML, Outputs, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::super::table::{Table, number};
 use super::{PredictArguments, refuse};
+use bolted_joint::draws::{Merged, Origin};
 use bolted_joint::export::Timestamp;
 use bolted_joint::predict::patch::Principal;
 use bolted_joint::predict::patch::{matrix27, table};
@@ -34,6 +36,7 @@ pub(super) fn run(
     arguments: &PredictArguments,
     study: &StudyText,
     method: Method,
+    parts: Option<Merged>,
 ) -> Result<(), CliError> {
     refuse(
         &[
@@ -63,8 +66,37 @@ pub(super) fn run(
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = InterfaceStudy::of(study)?;
     let draws = study.monte_carlo.map_or(0, |monte_carlo| monte_carlo.draws);
+    let draws = arguments
+        .draws
+        .as_ref()
+        .map_or(draws, |own| own.end - own.start);
     let progress = Progress::new("predicting", draws as usize);
-    let found = Prediction::of(&study, &|| progress.advance())?;
+    let advance = || progress.advance();
+    let origin_of = |found: &Prediction<'_>| {
+        let all = study.monte_carlo.ok_or_else(|| {
+            let expected = "a study with an uncertain value: without one there is nothing to draw";
+            CliError::option("draws", arguments.study.display(), expected)
+        })?;
+        let files = [&found.joint_file()];
+        Ok::<_, CliError>(Origin::of(&study.name, files, all.draws, all.seed)?)
+    };
+    if let Some(numbers) = &arguments.draws {
+        let found = Prediction::without_draws(&study)?;
+        let origin = origin_of(&found)?;
+        among(numbers, origin.draws)?;
+        let made = found.part(numbers.clone(), &advance);
+        drop(progress);
+        let (output, results) = (&arguments.output, found.results());
+        return write_part(output, origin, results, numbers.start, made, arguments.json);
+    }
+    let found = match parts {
+        None => Prediction::of(&study, &advance)?,
+        Some(parts) => {
+            let nominal = Prediction::without_draws(&study)?;
+            parts.check(&origin_of(&nominal)?, &nominal.results())?;
+            Prediction::of_parts(&study, &parts.draws)?
+        }
+    };
     drop(progress);
     let joint_file = found.joint_file();
     let text = joint_file.to_json()?;

@@ -6,6 +6,7 @@ use super::super::error::CliError;
 use super::super::output::{ANY, CSV, Outputs, SVG, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::{PredictArguments, refuse};
+use bolted_joint::draws::Numbers;
 use bolted_joint::predict::layered_beam::LayeredBeamStudy;
 use bolted_joint::report::LayeredBeamFigure;
 use bolted_joint::study::StudyText;
@@ -21,6 +22,14 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         ],
         "none: a layered beam has no interface elements; --damping-csv has its damping over the amplitude",
     )?;
+    if let Some(numbers) = &arguments.draws {
+        let expected = "none: all draws of a layered beam take less than a second";
+        return Err(CliError::option(
+            "--draws",
+            Numbers(numbers.clone()),
+            expected,
+        ));
+    }
     check_outputs(
         &arguments.study,
         &[

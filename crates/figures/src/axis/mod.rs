@@ -6,7 +6,7 @@ mod ticks;
 use series::{one_two_five, series_at_least, series_at_most};
 pub(crate) use ticks::with_minus_sign;
 pub use ticks::{Tick, TickLabel, Ticks};
-use ticks::{linear_ticks, logarithmic_ticks, phase_tick};
+use ticks::{counted_ticks, linear_ticks, logarithmic_ticks, phase_tick};
 
 /// Magnitudes outside this range are not drawn on a logarithmic axis; inside it, no rounding step overflows.
 const DRAWABLE: std::ops::RangeInclusive<f64> = 1e-300..=1e300;
@@ -33,6 +33,11 @@ pub enum Axis {
     },
     /// An angle in degrees over one turn, −180 to 180, and a little more.
     Phase,
+    /// Things that are counted from 1, with nothing between them.
+    Counted {
+        /// How many there are.
+        count: u32,
+    },
 }
 
 impl Axis {
@@ -77,6 +82,9 @@ impl Axis {
                 (value.log10() - low) / (high - low)
             }),
             Self::Phase => value.is_finite().then(|| 0.5 + 0.5 * value / PHASE_END),
+            Self::Counted { count } => {
+                (value.is_finite() && count > 0).then(|| (value - 0.5) / f64::from(count))
+            }
         }
     }
 
@@ -86,6 +94,7 @@ impl Axis {
             Self::Linear { low, high } => (low, high),
             Self::Logarithmic { low, high } => (one_two_five(low), one_two_five(high)),
             Self::Phase => (-PHASE_END, PHASE_END),
+            Self::Counted { count } => (0.5, f64::from(count) + 0.5),
         }
     }
 
@@ -94,6 +103,7 @@ impl Axis {
         match *self {
             Self::Linear { low, high } => linear_ticks(low, high, most),
             Self::Logarithmic { low, high } => logarithmic_ticks(low, high, most),
+            Self::Counted { count } => counted_ticks(count, most),
             Self::Phase => Ticks {
                 major: [-180, -90, 0, 90, 180].map(phase_tick).to_vec(),
                 minor: vec![-135.0, -45.0, 45.0, 135.0],

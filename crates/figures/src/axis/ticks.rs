@@ -48,6 +48,19 @@ pub(super) fn phase_tick(degrees: i32) -> Tick {
     }
 }
 
+/// Of things that are counted: every one, or every second, third … where there are more than `most`.
+pub(super) fn counted_ticks(count: u32, most: u32) -> Ticks {
+    let stride = count.div_ceil(most.max(1)).max(1) as usize;
+    let major = (1..=count).step_by(stride).map(|number| Tick {
+        value: number.into(),
+        label: TickLabel::Plain(number.to_string()),
+    });
+    Ticks {
+        major: major.collect(),
+        minor: Vec::new(),
+    }
+}
+
 pub(super) fn linear_ticks(low: f64, high: f64, most: u32) -> Ticks {
     let step_of = |most: u32| series_at_least((high - low) / f64::from(most.max(1)));
     let decimals_of = |number: i32| usize::try_from(-number.div_euclid(3)).unwrap_or(0);

@@ -1,23 +1,20 @@
 //! Parametric bootstrap of the estimate with the set-up's errors: what was read off of the set-up and the noise are drawn, and all
 //! of it is estimated anew.
 
+use bolted_joint_draws::Draw;
 use bolted_joint_systematic::{
     Cause, CauseEstimate, Estimate, Origin, Settings, Start, draw, estimate, estimate_near,
 };
-use nalgebra::DVector;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::super::bootstrap::Bootstrap;
 use super::super::lines::Lines;
 use super::super::lines_estimate::LinesEstimate;
-use super::super::parallel;
 use super::super::study::Study;
 use super::{MOST_LINES, MOST_LINES_OF_A_SEARCH, Systematic, experiment, together};
 
 impl Systematic {
-    /// The unknowns that are estimated from each draw, of those draws on which the search comes to rest. A draw begins at
+    /// The unknowns that are estimated from each draw, if the search comes to rest on it. A draw begins at
     /// the joint and the causes that it was made with and, where that leads to nothing that fits, as an identification
     /// does. Many lines are thinned out, and their noise is as much less. `progress` is called after each.
     pub(in super::super) fn draws(
@@ -25,11 +22,11 @@ impl Systematic {
         study: &Study,
         all: &[Lines],
         plain: &LinesEstimate,
-        bootstrap: Bootstrap,
+        bootstrap: &Bootstrap,
         progress: &(dyn Fn() + Sync),
-    ) -> Vec<DVector<f64>> {
+    ) -> Vec<Draw> {
         let Ok(all) = together(study, all) else {
-            return Vec::new();
+            return bootstrap.made(|_| None);
         };
         let few: Vec<Lines> = all
             .iter()
@@ -44,9 +41,7 @@ impl Systematic {
             .map(|cause| (cause.prior.cause, cause.value))
             .collect();
         let layout = study.layout();
-        let one = |&number: &u64| -> Option<DVector<f64>> {
-            let mut generator = ChaCha8Rng::seed_from_u64(bootstrap.seed);
-            generator.set_stream(number);
+        bootstrap.made(|mut generator| {
             let mut normal = || StandardNormal.sample(&mut generator);
             let joints = plain.joint_numbers();
             let mut drawn = experiment::of(study, &few, joints, &layout, self.levels)?;
@@ -69,9 +64,7 @@ impl Systematic {
                 estimate(&drawn, &priors, &start, &settings).filter(fits)
             });
             progress();
-            Some(DVector::from_vec(found?.unknowns))
-        };
-        let numbers: Vec<u64> = (0..bootstrap.draws as u64).collect();
-        parallel::map(&numbers, one).into_iter().flatten().collect()
+            Some(found?.unknowns)
+        })
     }
 }

@@ -4,8 +4,11 @@ use super::check::InterfaceStudy;
 use super::error::ModelError;
 use super::model::State;
 use super::results;
-use crate::uncertain::{Estimate, Outcome, Refusal};
+use crate::uncertain::{Drawn, Estimate, MonteCarlo, MonteCarloError, Outcome, Refusal};
 use crate::virtual_material::VirtualMaterial;
+use std::ops::Range;
+
+use bolted_joint_draws::Draw;
 use bolted_joint_study::StudyError;
 
 /// What is said of every prediction of an interface.
@@ -33,10 +36,54 @@ impl<'s> Prediction<'s> {
     /// # Errors
     /// [`StudyError::Model`] where the values given are outside the model, or hardly any draw is inside.
     pub fn of(study: &'s InterfaceStudy, progress: &(dyn Fn() + Sync)) -> Result<Self, StudyError> {
-        let refused = |reason: ModelError| {
-            let key = key_of(&reason);
-            StudyError::model(&study.path, Some(key), reason)
+        let found = Self::without_draws(study)?;
+        let names = found.results();
+        let model = |values: &Drawn| found.drawn(values, names.len());
+        let run = |monte_carlo: MonteCarlo| monte_carlo.run(&study.inputs, &names, model, progress);
+        let outcome = study.monte_carlo.map(run).transpose();
+        found.with(outcome)
+    }
+
+    /// Computes a study whose draws have been made, all of them, by [`Prediction::part`].
+    ///
+    /// # Errors
+    /// As [`Prediction::of`].
+    pub fn of_parts(study: &'s InterfaceStudy, draws: &[Draw]) -> Result<Self, StudyError> {
+        let found = Self::without_draws(study)?;
+        let names = found.results();
+        let run = |monte_carlo: MonteCarlo| monte_carlo.of_parts(&study.inputs, &names, draws);
+        let outcome = study.monte_carlo.map(run).transpose();
+        found.with(outcome)
+    }
+
+    /// The draws of these numbers; none where no value is uncertain. `progress` is called after each, from any thread.
+    #[must_use]
+    pub fn part(&self, numbers: Range<u64>, progress: &(dyn Fn() + Sync)) -> Vec<Draw> {
+        let count = self.results().len();
+        let model = |values: &Drawn| self.drawn(values, count);
+        let part = |monte_carlo: MonteCarlo| {
+            monte_carlo.part(numbers, &self.study.inputs, model, progress)
         };
+        self.study.monte_carlo.map(part).unwrap_or_default()
+    }
+
+    /// Names of what a draw gives.
+    #[must_use]
+    pub fn results(&self) -> Vec<String> {
+        let study = self.study;
+        let (dofs, slipping) = (study.motions.dofs(), study.slipping_dofs());
+        let torques = study.torques().into_iter();
+        torques
+            .flat_map(|torque| results::names(dofs, &slipping, torque))
+            .collect()
+    }
+
+    /// Computes a study at the values given alone.
+    ///
+    /// # Errors
+    /// [`StudyError::Model`] where they are outside the model.
+    pub fn without_draws(study: &'s InterfaceStudy) -> Result<Self, StudyError> {
+        let refused = |reason| refusal(study, reason);
         let torques = study.torques();
         let nominal = study.inputs.nominal();
         let roughness = study.roughness(&nominal).map_err(refused)?;
@@ -46,36 +93,31 @@ impl<'s> Prediction<'s> {
             .map(|&torque| study.state(&nominal, &law, torque))
             .collect::<Result<Vec<_>, _>>()
             .map_err(refused)?;
-        let dofs = study.motions.dofs();
-        let names: Vec<String> = torques
-            .iter()
-            .flat_map(|&torque| results::names(dofs, &study.slipping_dofs(), torque))
-            .collect();
-        let outcome = study.monte_carlo.map(|monte_carlo| {
-            monte_carlo.run(
-                &study.inputs,
-                &names,
-                |values| {
-                    let law = study.law(values)?;
-                    let mut all = Vec::with_capacity(names.len());
-                    for &torque in &torques {
-                        let drawn = study.drawn_joint(values, &law, torque)?;
-                        all.extend(results::values(dofs, &drawn));
-                    }
-                    Ok::<_, Refusal>(all)
-                },
-                progress,
-            )
-        });
-        let outcome = outcome
-            .transpose()
-            .map_err(|error| refused(ModelError::from(error)))?;
         Ok(Self {
             study,
             states,
             roughness: [roughness.fractal_dimension(), roughness.roughness_m()],
-            outcome,
+            outcome: None,
         })
+    }
+
+    /// The `count` results of all torques at drawn values.
+    fn drawn(&self, values: &Drawn, count: usize) -> Result<Vec<f64>, Refusal> {
+        let study = self.study;
+        let law = study.law(values)?;
+        let mut all = Vec::with_capacity(count);
+        for torque in study.torques() {
+            let drawn = study.drawn_joint(values, &law, torque)?;
+            all.extend(results::values(study.motions.dofs(), &drawn));
+        }
+        Ok(all)
+    }
+
+    /// The same with what the draws came to.
+    fn with(self, outcome: Result<Option<Outcome>, MonteCarloError>) -> Result<Self, StudyError> {
+        let refused = |error| refusal(self.study, ModelError::from(error));
+        let outcome = outcome.map_err(refused)?;
+        Ok(Self { outcome, ..self })
     }
 
     /// The joint at the nominal torque, or the only one.
@@ -107,6 +149,12 @@ impl<'s> Prediction<'s> {
         let outcome = self.outcome.as_ref()?;
         outcome.estimate(&results::at(name, torque_n_m))
     }
+}
+
+/// What is said of a study that is outside the model.
+fn refusal(study: &InterfaceStudy, reason: ModelError) -> StudyError {
+    let key = key_of(&reason);
+    StudyError::model(&study.path, Some(key), reason)
 }
 
 /// The key of the study that an error is about.

@@ -1,5 +1,8 @@
 //! Seeded draws on all processors: the same seed gives the same draws, however many processors share them.
 
+use std::ops::Range;
+
+use bolted_joint_draws::Draw;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
@@ -72,18 +75,72 @@ impl MonteCarlo {
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome, MonteCarloError> {
         let one = |number: u64| {
-            let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
-            generator.set_stream(number);
-            let scores = inputs.scores(&mut generator);
-            let result = match inputs.at(&scores) {
-                Ok(drawn) => model(&drawn),
-                Err(name) => Err(Refusal {
-                    reason: format!("{name} outside its range"),
+            let scores = self.scores(inputs, number);
+            let result = result(inputs, &scores, &model);
+            progress();
+            (scores, result)
+        };
+        let batches = (0..self.draws).step_by(BATCH as usize).map(|first| {
+            let numbers = first..self.draws.min(first + BATCH);
+            numbers.into_par_iter().map(one).collect::<Vec<_>>()
+        });
+        self.outcome(inputs, names, batches.flatten())
+    }
+
+    /// The draws of these numbers alone.
+    pub fn part(
+        self,
+        numbers: Range<u64>,
+        inputs: &Inputs,
+        model: impl Fn(&Drawn) -> Result<Vec<f64>, Refusal> + Sync,
+        progress: &(dyn Fn() + Sync),
+    ) -> Vec<Draw> {
+        let one = |number: u64| {
+            let result = result(inputs, &self.scores(inputs, number), &model);
+            progress();
+            match result {
+                Ok(results) => Draw::Values(results),
+                Err(Refusal { reason }) => Draw::Refused(reason),
+            }
+        };
+        numbers.into_par_iter().map(one).collect()
+    }
+
+    /// What all draws come to that were made in parts: the same as [`MonteCarlo::run`] gives, to the bit.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of_parts(
+        self,
+        inputs: &Inputs,
+        names: &[String],
+        draws: &[Draw],
+    ) -> Result<Outcome, MonteCarloError> {
+        let draws = (0..).zip(draws).map(|(number, draw)| {
+            let result = match draw {
+                Draw::Values(values) => Ok(values.clone()),
+                Draw::Refused(reason) => Err(Refusal {
+                    reason: reason.clone(),
                 }),
             };
-            progress();
-            result.map(|results| (scores, results))
-        };
+            (self.scores(inputs, number), result)
+        });
+        self.outcome(inputs, names, draws)
+    }
+
+    /// The scores of a draw, from a stream of random numbers of its own.
+    fn scores(self, inputs: &Inputs, number: u64) -> Vec<f64> {
+        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
+        generator.set_stream(number);
+        inputs.scores(&mut generator)
+    }
+
+    fn outcome(
+        self,
+        inputs: &Inputs,
+        names: &[String],
+        draws: impl Iterator<Item = (Vec<f64>, Result<Vec<f64>, Refusal>)>,
+    ) -> Result<Outcome, MonteCarloError> {
         let varying: Vec<usize> = inputs.varying().collect();
         let mut taken = Taken {
             varying: &varying,
@@ -92,12 +149,8 @@ impl MonteCarlo {
             samples: vec![Vec::new(); names.len()],
             refused: Vec::new(),
         };
-        for first in (0..self.draws).step_by(BATCH as usize) {
-            let numbers = first..self.draws.min(first + BATCH);
-            let batch: Vec<_> = numbers.into_par_iter().map(one).collect();
-            for draw in batch {
-                taken.take(draw)?;
-            }
+        for (scores, result) in draws {
+            taken.take(&scores, result)?;
         }
         let accepted = taken.moments.count() as u64;
         if accepted < 2 {
@@ -108,6 +161,20 @@ impl MonteCarlo {
             });
         }
         Ok(Outcome::new(self, inputs, names, taken))
+    }
+}
+
+/// What the model gives at these scores.
+fn result(
+    inputs: &Inputs,
+    scores: &[f64],
+    model: impl Fn(&Drawn) -> Result<Vec<f64>, Refusal>,
+) -> Result<Vec<f64>, Refusal> {
+    match inputs.at(scores) {
+        Ok(drawn) => model(&drawn),
+        Err(name) => Err(Refusal {
+            reason: format!("{name} outside its range"),
+        }),
     }
 }
 
@@ -126,9 +193,13 @@ pub(super) struct Taken<'a> {
 }
 
 impl Taken<'_> {
-    fn take(&mut self, draw: Result<(Vec<f64>, Vec<f64>), Refusal>) -> Result<(), MonteCarloError> {
-        let (scores, mut vector) = match draw {
-            Ok(draw) => draw,
+    fn take(
+        &mut self,
+        scores: &[f64],
+        result: Result<Vec<f64>, Refusal>,
+    ) -> Result<(), MonteCarloError> {
+        let mut vector = match result {
+            Ok(vector) => vector,
             Err(Refusal { reason }) => {
                 match self.refused.iter_mut().find(|(known, _)| *known == reason) {
                     Some((_, count)) => *count += 1,

@@ -7,8 +7,13 @@ The functions here do what the command line ``bolted-joint`` does, in the same w
 `identify`         a study becomes a joint
 `predict`          a joint from surfaces, materials and bolts
 `respond`          what a test of the assembly would measure with a joint
-`export`           a joint becomes an FMU
+`draw`             some of the draws of a bootstrap or a Monte Carlo simulation
+`merge`            all of them together
+`export`           a joint, or an assembly, becomes an FMU
 `check`            is a joint file or an FMU what it should be
+`show`             what is in a file
+`compare`          joints beside each other
+`convert`          a joint for Nastran, Abaqus, CalculiX, ANSYS, MATLAB or Modelica
 `Joint`            a joint file as an object
 `Study`            a study file as a dictionary
 =================  ==================================================================
@@ -17,28 +22,38 @@ All numbers are in SI units without prefixes. Arrays of functions have the frequ
 """
 
 from ._command import BoltedJointError, NotUsableWarning
+from ._draws import Draws, draw, merge
 from ._fmu import Checked, Fmu, check, export
 from ._functions import Functions, read
 from ._identify import Identification, identify
 from ._joint import Joint
 from ._predict import Prediction, predict
 from ._respond import respond
+from ._show import Comparison, Look, compare, convert, show
 from ._study import Study
 
 __all__ = [
     "BoltedJointError",
     "Checked",
+    "Comparison",
+    "Draws",
     "Fmu",
     "Functions",
     "Identification",
     "Joint",
+    "Look",
     "NotUsableWarning",
     "Prediction",
     "Study",
     "check",
+    "compare",
+    "convert",
+    "draw",
     "export",
     "identify",
+    "merge",
     "predict",
     "read",
     "respond",
+    "show",
 ]

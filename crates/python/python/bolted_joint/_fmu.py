@@ -1,5 +1,6 @@
 """`export` and `check`: from a joint to an FMU, and whether it is what it should be."""
 
+import contextlib
 import os
 import tempfile
 from pathlib import Path
@@ -7,6 +8,7 @@ from typing import Any
 
 from ._command import BoltedJointError, path_of, run
 from ._joint import Joint
+from ._study import Study, as_file
 
 
 class Fmu:
@@ -32,10 +34,10 @@ class Fmu:
 
 
 def export(
-    joint: Joint | str | os.PathLike[str],
+    joint: Joint | Study | str | os.PathLike[str],
     path: str | os.PathLike[str],
     *,
-    interface: str = "element",
+    interface: str | None = None,
     fmi: int = 3,
     step_size_max_s: float | None = None,
     preload_n_m: float | None = None,
@@ -44,16 +46,18 @@ def export(
     allow_active: bool = False,
     unusable: bool = False,
 ) -> Fmu:
-    """Writes an FMU from a joint.
+    """Writes an FMU from a joint, or from a whole assembly.
 
     Parameters
     ----------
-    joint : Joint or path
-        The joint, or its file.
+    joint : Joint, Study or path
+        The joint, or its file; or an assembly: its file, or its tables as a `Study`, which may have a `Joint` where a
+        file has the path of one.
     path : path
         The FMU to write.
-    interface : {"element", "lap"}
-        The massless joint between two structures (motion in, force out), or two bodies with the joint between them.
+    interface : {"element", "lap"}, optional
+        Of a joint: the massless joint between two structures (motion in, force out; this is the default), or two bodies
+        with the joint between them.
     fmi : {3, 2}
         Version of the FMI standard.
     step_size_max_s : float, optional
@@ -76,13 +80,18 @@ def export(
     BoltedJointError
         If the joint cannot be exported.
     """
-    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with contextlib.ExitStack() as stack:
+        hidden = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-")) + os.sep
         if isinstance(joint, Joint):
-            given = str(Path(folder, "given.joint.json"))
+            given = os.path.join(hidden, "given.joint.json")
             joint.save(given)
+        elif isinstance(joint, Study):
+            given, hidden = stack.enter_context(as_file(joint))
         else:
             given = path_of(joint)
-        arguments = ["export", given, "-o", path_of(path), "--as", interface, "--fmi", str(fmi)]
+        arguments = ["export", given, "-o", path_of(path), "--fmi", str(fmi)]
+        if interface is not None:
+            arguments += ["--as", interface]
         for option, value in [
             ("--step-size-max", step_size_max_s),
             ("--preload", preload_n_m),
@@ -97,7 +106,7 @@ def export(
         ]:
             if asked:
                 arguments.append(option)
-        return Fmu(Path(path), run(arguments))
+        return Fmu(Path(path), run(arguments, hidden))
 
 
 class Checked:

@@ -117,17 +117,20 @@ class Functions:
         )
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a NumPy archive that the command line reads (``.npz``).
+        """Writes a file that the command line reads: a NumPy archive (``.npz``), or a table (``.csv``).
 
         Raises
         ------
         BoltedJointError
-            If some function between the responses and the references was not measured.
+            If some function between the responses and the references was not measured, for which an archive has no word.
         """
+        if os.fspath(path).endswith(".csv"):
+            self._save_table(path)
+            return
         for row, column in np.argwhere(~self.measured):
             raise BoltedJointError(
                 f"functions: {self.responses[row]}/{self.references[column]} was not measured, expected a function "
-                "for each response and reference; select(responses=…, references=…) takes those that are complete"
+                "for each response and reference; a name that ends in .csv writes a table, which may leave some out"
             )
         arrays: dict[str, Any] = {
             "frequency": self.frequency_hz,
@@ -143,6 +146,23 @@ class Functions:
             arrays["averages"] = self.averages
         with open(path, "wb") as file:
             np.savez(file, **arrays)
+
+    def _save_table(self, path: str | os.PathLike[str]) -> None:
+        """A table of those functions that were measured; 17 digits tell every number to the bit."""
+        names, columns = ["frequency [Hz]"], [self.frequency_hz]
+        for row, column in np.argwhere(self.measured):
+            pair = f"{self.responses[row]}/{self.references[column]}"
+            values = self.values[:, row, column]
+            names += [f"{pair} real", f"{pair} imaginary"]
+            columns += [values.real, values.imag]
+            if self.coherence is not None:
+                names.append(f"{pair} coherence")
+                columns.append(self.coherence[:, row, column])
+        comments = [f"# quantity = {self.quantity}"]
+        if self.averages is not None:
+            comments.append(f"# averages = {self.averages!r}")
+        head = "\n".join([*comments, ",".join(names)])
+        np.savetxt(path, np.column_stack(columns), fmt="%.17g", delimiter=",", header=head, comments="", encoding="utf-8")
 
     def plot(self, **options: Any) -> "Figure":
         """Draws magnitude and phase over frequency; see `bolted_joint._plot.functions`."""

@@ -130,8 +130,14 @@ def identify(
         if report:
             arguments += ["--report", str(page)]
         details = run(arguments, hidden)
-        joints = {
-            file.name.removeprefix("identified").removesuffix("joint.json").strip("."): Joint.read(file)
-            for file in sorted(Path(folder).glob("*.joint.json"))
-        }
-        return Identification(study, joints, details, page.read_text(encoding="utf-8") if report else "")
+        html = page.read_text(encoding="utf-8") if report else ""
+        return found_in(Path(folder), "identified", study, details, html)
+
+
+def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str) -> Identification:
+    """The joint files that a command has written into a folder, as `stem`.joint.json or `stem`.BOLT.joint.json."""
+    joints = {
+        file.name.removeprefix(stem).removesuffix("joint.json").strip("."): Joint.read(file)
+        for file in sorted(folder.glob("*.joint.json"))
+    }
+    return Identification(study, joints, details, html)

@@ -91,6 +91,14 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
         yield str(path), temporary + os.sep
 
 
+def command_of(path: str, hidden: str) -> str:
+    """The command that a study's file is for."""
+    try:
+        return _native.command_of(path)
+    except ValueError as error:
+        raise BoltedJointError(str(error).replace(hidden, "") if hidden else str(error)) from error
+
+
 class _Tables:
     """Makes of a dictionary's values what TOML has words for; arrays of functions and joints become files."""
 
@@ -106,13 +114,14 @@ class _Tables:
                 tables.setdefault("units", {"length": "m", "force": "N"})
             return tables
         if isinstance(value, Functions):
-            path = self.new(key, ".npz")
+            # an archive has all pairs of its responses and references
+            path = self.new(key, ".npz" if value.measured.all() else ".csv")
             value.save(path)
-            return str(path)
+            return path.name
         if isinstance(value, Joint):
             path = self.new(key, ".joint.json")
             value.save(path)
-            return str(path)
+            return path.name
         if isinstance(value, os.PathLike):
             return str(self.folder / value)
         if isinstance(value, str):

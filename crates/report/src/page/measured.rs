@@ -168,10 +168,13 @@ fn substructure(substructure: &Substructure, bolts: &Bolts) -> String {
                 .collect();
             let places = joints_m.iter().map(|x_m| format!("at {} m", number(*x_m)));
             format!(
-                "computed: {}; {}, points {}",
+                "computed: {}; {}{}",
                 self::beam(beam),
                 at_bolts(places.collect(), bolts),
-                points.join(", ")
+                match points.as_slice() {
+                    [] => String::new(),
+                    points => format!(", points {}", points.join(", ")),
+                }
             )
         }
     }

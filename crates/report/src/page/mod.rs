@@ -45,7 +45,6 @@ impl IdentificationReport<'_> {
             .collect();
         let sections = [
             judgement::summary(self, &files),
-            measured::section(self),
             parameters::section(self),
             budget::section(self),
             judgement::section(self, &files),
@@ -53,6 +52,7 @@ impl IdentificationReport<'_> {
             nyquist::section(self),
             decoupled::section(self),
             sensitivity::section(self),
+            measured::section(self),
             files.first().map(origin::section).unwrap_or_default(),
         ]
         .concat();

@@ -72,6 +72,7 @@ fn figure(
     let svg = IntervalFigure {
         title: "Stiffness and damping over the tightening torque, with intervals of 95 %",
         across: "tightening torque, N·m",
+        is_counted: false,
         panels,
     }
     .to_svg();

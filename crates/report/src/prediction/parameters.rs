@@ -120,6 +120,7 @@ fn over_torque(found: &Prediction<'_>) -> String {
     let drawing = IntervalFigure {
         title: "Stiffness and damping over the torque",
         across: "torque, N·m",
+        is_counted: false,
         panels: panels.collect(),
     };
     figure(

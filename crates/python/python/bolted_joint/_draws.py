@@ -1,0 +1,151 @@
+"""`draw` and `merge`: a bootstrap or a Monte Carlo simulation in parts, on as many machines as there are."""
+
+import json
+import os
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._command import BoltedJointError, run
+from ._identify import Identification, found_in
+from ._joint import Joint
+from ._predict import Prediction
+from ._study import AnyStudy, as_file, command_of
+
+
+class Draws:
+    """Some of the draws of a simulation.
+
+    Parameters
+    ----------
+    text : str
+        What a file of draws holds, format ``bolted-joint-draws/1``.
+
+    Attributes
+    ----------
+    numbers : range
+        Which draws these are.
+    results : tuple of str
+        Names of the results of a draw.
+    values : array of shape (draws, results)
+        The results in SI units; NaN where a draw has none.
+    """
+
+    def __init__(self, text: str):
+        self._text = text
+        data = json.loads(text)
+        self.results: tuple[str, ...] = tuple(data["results"])
+        none = [np.nan] * len(self.results)
+        draws = [draw if isinstance(draw, list) else none for draw in data["draws"]]
+        self.numbers = range(data["first"], data["first"] + len(draws))
+        self.values: NDArray[np.float64] = np.array(draws, dtype=np.float64)
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> "Draws":
+        """Reads a file of draws; `merge` says more of what is wrong with one."""
+        try:
+            return cls(Path(path).read_text(encoding="utf-8"))
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the file of draws."""
+        Path(path).write_text(self._text, encoding="utf-8")
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __repr__(self) -> str:
+        return f"<Draws {self.numbers.start}..{self.numbers.stop} of {', '.join(self.results)}>"
+
+
+def draw(study: AnyStudy, numbers: range, *, bootstrap: int | None = None, seed: int | None = None) -> Draws:
+    """Makes some of the draws of a bootstrap (`identify`) or of a prediction with uncertain values (`predict`).
+
+    Each draw has random numbers of its own: it is the same whichever others are made with it, and on any machine.
+
+    Parameters
+    ----------
+    study : path, dict or Study
+        As for `identify` or `predict`.
+    numbers : range
+        Which draws to make, such as ``range(1000, 2000)``.
+    bootstrap : int, optional
+        How many draws all parts of the bootstrap have together. A prediction's study says so itself.
+    seed : int, optional
+        Seed of the bootstrap.
+
+    Returns
+    -------
+    Draws
+
+    Raises
+    ------
+    BoltedJointError
+        If the study or its files cannot be used, or has no such draws.
+    """
+    if numbers.step != 1 or len(numbers) == 0:
+        raise BoltedJointError(f"numbers: found {numbers!r}, expected a range such as range(0, 1000)")
+    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        output = Path(folder, "part.draws.json")
+        arguments = [command_of(path, hidden), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
+        for option, value in [("--bootstrap", bootstrap), ("--seed", seed)]:
+            if value is not None:
+                arguments += [option, str(value)]
+        run(arguments, hidden)
+        return Draws.read(output)
+
+
+def merge(
+    study: AnyStudy,
+    parts: Iterable[Draws | str | os.PathLike[str]],
+    *,
+    rivals: bool = True,
+    report: bool = False,
+) -> Identification | Prediction:
+    """Puts draws together that were made in parts: what one machine would have made, to the bit.
+
+    Parameters
+    ----------
+    study : path, dict or Study
+        The study that the draws were made from.
+    parts : iterable of Draws or paths
+        The parts in any order; together they have all draws, each once.
+    rivals : bool
+        Whether the joint model of an identification is compared with others.
+    report : bool
+        Whether the report is made too.
+
+    Returns
+    -------
+    Identification or Prediction
+
+    Raises
+    ------
+    BoltedJointError
+        If a part does not belong to the study or to the others, or if draws are there twice or not at all.
+    """
+    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        command, files = command_of(path, hidden), []
+        for number, part in enumerate(parts):
+            if isinstance(part, Draws):
+                file = Path(folder, f"part-{number + 1}.draws.json")
+                part.save(file)
+                files.append(str(file))
+            else:
+                files.append(os.fspath(part))
+        output, page = Path(folder, "merged.joint.json"), Path(folder, "report.html")
+        arguments = ["merge", path, *files, "-o", str(output)]
+        if not rivals:
+            arguments += ["--no-rivals"]
+        if report:
+            arguments += ["--report", str(page)]
+        details: dict[str, Any] = run(arguments, hidden)
+        html = page.read_text(encoding="utf-8") if report else ""
+        if command == "identify":
+            return found_in(Path(folder), "merged", study, details, html)
+        return Prediction(Joint.read(output), details, html)

@@ -1,0 +1,254 @@
+"""`show`, `compare` and `convert`: a look at files, joints beside each other, joints for other tools."""
+
+import os
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._command import BoltedJointError, path_of, run
+from ._functions import Functions
+from ._html import table
+from ._joint import Joint
+
+#: What `show` tells of.
+Shown = str | os.PathLike[str] | Joint | Functions
+
+
+class Look:
+    """What is in a file.
+
+    Attributes
+    ----------
+    kind : str
+        What it is.
+    facts : dict of str to list of str
+        What is in it, in words.
+    warnings, reasons_against : tuple of str
+        What looks wrong, and why a joint is not to be relied on.
+    details : dict
+        The same as numbers.
+    page_html : str
+        The page with its pictures. Empty where none was asked for.
+    """
+
+    def __init__(self, data: dict[str, Any], page_html: str):
+        self.file = str(data["file"])
+        self.kind = str(data["kind"])
+        self.facts: dict[str, list[str]] = data["facts"]
+        self.warnings: tuple[str, ...] = tuple(data["warnings"])
+        self.reasons_against: tuple[str, ...] = tuple(data["reasons_against"])
+        self.details: dict[str, Any] = data["details"]
+        self.page_html = page_html
+
+    def __repr__(self) -> str:
+        lines = [f"{self.file}: {self.kind}"]
+        for label, facts in self.facts.items():
+            lines += [f"  {label if number == 0 else '':<14}{fact}" for number, fact in enumerate(facts)]
+        lines += [f"  {'warning':<14}{warning}" for warning in self.warnings]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        rows = [(label, "; ".join(facts)) for label, facts in self.facts.items()]
+        rows += [("warning", warning) for warning in self.warnings]
+        return table(f"{self.file}: {self.kind}", ("", ""), rows)
+
+
+def show(what: Shown, *, page: bool = False) -> Look:
+    """Tells what is in measured functions, modes, matrices, a study, an assembly, a joint, draws or an FMU.
+
+    Parameters
+    ----------
+    what : path, Joint or Functions
+        What to look at.
+    page : bool
+        Whether the page with its pictures is made too.
+
+    Returns
+    -------
+    Look
+
+    Raises
+    ------
+    BoltedJointError
+        If it is none of these, or cannot be read.
+    """
+    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        if isinstance(what, Functions):
+            path = str(Path(folder, "functions.npz" if what.measured.all() else "functions.csv"))
+            what.save(path)
+        elif isinstance(what, Joint):
+            path = str(Path(folder, "given.joint.json"))
+            what.save(path)
+        else:
+            path = path_of(what)
+        drawing = Path(folder, "page.html")
+        arguments = ["show", path, *(["--plot", str(drawing)] if page else [])]
+        data = run(arguments, folder + os.sep)[0]
+        data["file"] = data["file"].replace(folder + os.sep, "")
+        return Look(data, drawing.read_text(encoding="utf-8") if page else "")
+
+
+class Comparison:
+    """Joints beside each other.
+
+    Attributes
+    ----------
+    names : tuple of str
+        What the joints are called.
+    rows : tuple of str
+        Names of the numbers, such as ``"k_yy"``.
+    values, standard_deviations : array of shape (numbers, joints)
+        The numbers in SI units, and their standard deviations; NaN where a file states none.
+    deviations : array of shape (numbers, joints - 1)
+        Differences from the first joint in standard deviations of the difference; NaN where nothing tells.
+    together : list
+        For each other joint χ² of all unknowns together, how many they are, and the probability that chance exceeds it.
+    notes : tuple of str
+        What else differs.
+    details : dict
+        All that ``bolted-joint compare --json`` prints.
+    page_html : str
+        The page with its picture. Empty where none was asked for.
+    """
+
+    def __init__(self, names: Sequence[str], details: dict[str, Any], page_html: str):
+        rows = details["rows"]
+        self.names = tuple(names)
+        self.rows: tuple[str, ...] = tuple(row["name"] for row in rows)
+        self.values = _numbers(rows, "values")
+        self.standard_deviations = _numbers(rows, "standard_deviations")
+        self.deviations = _numbers(rows, "deviations")
+        self.together: list[dict[str, Any] | None] = details["together"]
+        self.notes: tuple[str, ...] = tuple(details["notes"])
+        self.details = details
+        self.page_html = page_html
+
+    def __repr__(self) -> str:
+        return f"<Comparison of {', '.join(self.names)}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import with_deviation
+
+        rows = [
+            (
+                f"{name}, {row['unit']}",
+                *(
+                    with_deviation(value, 0.0 if np.isnan(deviation) else deviation)
+                    for value, deviation in zip(values, deviations, strict=True)
+                ),
+                *("" if np.isnan(own) else f"{own:+.1f}" for own in differences),
+            )
+            for name, row, values, deviations, differences in zip(
+                self.rows, self.details["rows"], self.values, self.standard_deviations, self.deviations, strict=True
+            )
+        ]
+        header = ("", *self.names, *(f"{name}: difference in std. dev." for name in self.names[1:]))
+        return table("Joints beside each other", header, rows)
+
+
+def compare(
+    *joints: Joint | str | os.PathLike[str], preload_n_m: float | None = None, page: bool = False
+) -> Comparison:
+    """Puts joints beside each other: values, and differences from the first in standard deviations.
+
+    Parameters
+    ----------
+    *joints : Joint or path
+        At least two.
+    preload_n_m : float, optional
+        Preload at which joints over the preload are compared, N·m.
+    page : bool
+        Whether the page with its picture is made too.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    BoltedJointError
+        If the joints are not of one kind.
+    """
+    if len(joints) < 2:
+        raise BoltedJointError(f"joints: found {len(joints)}, expected at least two")
+    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        paths = [_joint_file(joint, Path(folder, f"joint-{place + 1}.joint.json")) for place, joint in enumerate(joints)]
+        drawing = Path(folder, "page.html")
+        arguments = ["compare", *paths]
+        if preload_n_m is not None:
+            arguments += ["--preload", repr(float(preload_n_m))]
+        if page:
+            arguments += ["--plot", str(drawing)]
+        details = run(arguments, folder + os.sep)
+        names = [joint.name if isinstance(joint, Joint) else os.fspath(joint) for joint in joints]
+        return Comparison(names, details, drawing.read_text(encoding="utf-8") if page else "")
+
+
+def convert(
+    joint: Joint | str | os.PathLike[str],
+    tool: str,
+    path: str | os.PathLike[str],
+    *,
+    nodes: tuple[int, int] = (1, 2),
+    rotation_nodes: tuple[int, int] = (3, 4),
+    first_number: int = 1001,
+    preload_n_m: float | None = None,
+    at_rest: bool = False,
+) -> Path:
+    """Writes a joint for another tool.
+
+    Parameters
+    ----------
+    joint : Joint or path
+        The joint, or its file.
+    tool : {"nastran", "abaqus", "calculix", "ansys", "matlab", "modelica"}
+        The tool.
+    path : path
+        The file to write; a function of MATLAB and a package of Modelica get its name.
+    nodes : pair of int
+        Nodes on sides a and b.
+    rotation_nodes : pair of int
+        Nodes whose displacements are the rotations of sides a and b (CalculiX).
+    first_number : int
+        First of free numbers for elements, properties and auxiliary nodes.
+    preload_n_m : float, optional
+        Preload at which a joint over the preload is taken, N·m.
+    at_rest : bool
+        Take the joint of small motion about rest: sliders stick, terms of higher order vanish.
+
+    Returns
+    -------
+    pathlib.Path
+        The file that was written.
+
+    Raises
+    ------
+    BoltedJointError
+        If the tool has no word for the joint.
+    """
+    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        given = _joint_file(joint, Path(folder, "given.joint.json"))
+        arguments = ["convert", given, "--to", tool, "-o", path_of(path)]
+        arguments += ["--nodes", ",".join(map(str, nodes)), "--rotation-nodes", ",".join(map(str, rotation_nodes))]
+        arguments += ["--first-number", str(first_number)]
+        if preload_n_m is not None:
+            arguments += ["--preload", repr(float(preload_n_m))]
+        if at_rest:
+            arguments += ["--at-rest"]
+        run(arguments, folder + os.sep)
+    return Path(path)
+
+
+def _joint_file(joint: Joint | str | os.PathLike[str], path: Path) -> str:
+    if not isinstance(joint, Joint):
+        return path_of(joint)
+    joint.save(path)
+    return str(path)
+
+
+def _numbers(rows: list[dict[str, Any]], key: str) -> NDArray[np.float64]:
+    return np.array([[np.nan if own is None else own for own in row[key]] for row in rows], dtype=np.float64)

@@ -20,7 +20,8 @@ const JOINT: &str = r#"{"format": "bolted-joint/1", "name": "lap", "joint": {"do
 fn beams(modes: usize, joints: usize) -> AssemblyModel {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("lap.joint.json"), JOINT).unwrap();
-    let mut text = String::from("name = \"beams\"\n");
+    // one joint along y is a hinge
+    let mut text = String::from("name = \"beams\"\nmechanisms = true\n");
     for (name, boundary) in [("a", "fixed-free"), ("b", "free-free")] {
         let points: Vec<String> = (0..joints)
             .map(|joint| format!("\"{}:+Y\" = {}", joint + 1, 0.3 - 0.05 * joint as f64))

@@ -145,6 +145,13 @@ pub(super) fn warn(warnings: &[String]) {
     }
 }
 
+/// Tells what may well be meant.
+pub(super) fn note(notes: &[String]) {
+    for note in notes {
+        message(&format!("note: {note}"));
+    }
+}
+
 /// Writes files whole or, if one cannot be written, none.
 pub(super) fn write_files(files: &[(&Path, &[u8])]) -> Result<(), CliError> {
     // a pipe has no old contents that could be put back

@@ -40,6 +40,16 @@ pub enum AssemblyError {
         /// Frequency, Hz.
         frequency_hz: f64,
     },
+    /// Joints too stiff for the step.
+    #[error(
+        "the joints are so stiff at {time_s} s that 4096 parts of a step of {step_s} s are too long for them; choose a shorter `response.step`"
+    )]
+    TooLong {
+        /// Time, s.
+        time_s: f64,
+        /// Step, s.
+        step_s: f64,
+    },
     /// A motion that grows beyond what is finite.
     #[error(
         "the motion of the assembly is no longer finite at {time_s} s: a joint or a structure feeds energy; `check` tells which joint is not passive"

@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod freedom;
 mod linear;
 mod modal_form;
 mod model;

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::with_dofs;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
@@ -70,6 +69,9 @@ impl AssemblyModel {
         );
         let own = &relative * &by_joints;
         let size = own.nrows();
+        if size == 0 {
+            return Some(outputs * by_inputs);
+        }
         let closed = DMatrix::identity(size, size) + own * &dynamic;
         let loads = dynamic * closed.lu().solve(&(&relative * &by_inputs))?;
         Some(&outputs * by_inputs - &outputs * by_joints * loads)
@@ -156,19 +158,12 @@ impl AssemblyModel {
             let relative = self.relative_rows(joint);
             let count = relative.nrows();
             all.relative.rows_mut(first, count).copy_from(&relative);
-            with_dofs!(joint.file.joint.dofs.size(), D => {
-                let law = joint.file.joint.law::<D>().map_err(|source| AssemblyError::Law {
-                    path: joint.path.display().to_string(),
-                    source: Box::new(source),
-                })?;
-                let linear = law.linearised_about(&[0.0; D]).linear;
-                for i in 0..D {
-                    for j in 0..D {
-                        all.stiffness[(first + i, first + j)] = linear.stiffness[i][j];
-                        all.damping[(first + i, first + j)] = linear.damping[i][j];
-                    }
-                }
-            });
+            let (stiffness, damping) = joint.of_small_motion_about(0.0)?;
+            for (whole, own) in [(&mut all.stiffness, stiffness), (&mut all.damping, damping)] {
+                whole
+                    .view_mut((first, first), (count, count))
+                    .copy_from(&own);
+            }
             first += count;
         }
         Ok(all)

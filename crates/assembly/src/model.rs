@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use bolted_joint_dynamics::assembly::{Assembly, AssemblyJoint, Matrix};
-use bolted_joint_dynamics::with_dofs;
+use bolted_joint_dynamics::{JointLaw, with_dofs};
 use bolted_joint_joint::JointFile;
 use nalgebra::DMatrix;
 
@@ -53,6 +53,34 @@ pub struct AssemblyModel {
     pub response: Option<Response>,
     /// What the user should know of how it was read.
     pub warnings: Vec<String>,
+    /// What is as it may well be meant: that nothing holds the whole, that a structure is connected to none.
+    pub notes: Vec<String>,
+}
+
+impl PlacedJoint {
+    /// K and C of small motion about the same displacement (m, rad) of every degree of freedom, to which the joint came in one
+    /// go.
+    ///
+    /// # Errors
+    /// [`AssemblyError::Law`] where the joint gives no law.
+    pub(crate) fn of_small_motion_about(
+        &self,
+        displacement: f64,
+    ) -> Result<(DMatrix<f64>, DMatrix<f64>), AssemblyError> {
+        with_dofs!(self.file.joint.dofs.size(), D => {
+            let linear = self.law_of::<D>()?.linearised_about(&[displacement; D]).linear;
+            let matrix = |own: [[f64; D]; D]| DMatrix::from_fn(D, D, |i, j| own[i][j]);
+            Ok((matrix(linear.stiffness), matrix(linear.damping)))
+        })
+    }
+
+    fn law_of<const D: usize>(&self) -> Result<JointLaw<D>, AssemblyError> {
+        let law = self.file.joint.law::<D>();
+        law.map_err(|source| AssemblyError::Law {
+            path: self.path.display().to_string(),
+            source: Box::new(source),
+        })
+    }
 }
 
 impl AssemblyModel {
@@ -129,10 +157,7 @@ impl AssemblyModel {
         let relative = self.relative_rows(joint);
         let relative = Matrix::from_fn(relative.nrows(), relative.ncols(), |i, j| relative[(i, j)]);
         with_dofs!(joint.file.joint.dofs.size(), D => {
-            let law = joint.file.joint.law::<D>().map_err(|source| AssemblyError::Law {
-                path: joint.path.display().to_string(),
-                source: Box::new(source),
-            })?;
+            let law = joint.law_of::<D>()?;
             Ok(AssemblyJoint {
                 relative,
                 stiffness: Matrix::from_fn(D, D, |i, j| law.linear.stiffness[i][j]),

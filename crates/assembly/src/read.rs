@@ -7,6 +7,7 @@ use bolted_joint_joint::JointFile;
 use bolted_joint_study::{StudyError, StudyText, TextKind, schema};
 
 use crate::error::AssemblyError;
+use crate::freedom::Freedom;
 use crate::model::{AssemblyModel, NamedStructure, PlacedJoint};
 use crate::place::{Channel, Place};
 use crate::response::Response;
@@ -72,7 +73,7 @@ impl AssemblyModel {
         let response = tables
             .response
             .map(|table| Response::of(text, table, &inputs));
-        Ok(Self {
+        let mut model = Self {
             path: text.path().to_owned(),
             name: tables.name,
             response: response.transpose()?,
@@ -81,7 +82,25 @@ impl AssemblyModel {
             inputs,
             outputs,
             warnings,
-        })
+            notes: Vec::new(),
+        };
+        let freedom = Freedom::of(&model)?;
+        if let Some((joint, mechanism)) = freedom.mechanisms.first()
+            && !tables.mechanisms
+        {
+            let expected = "a joint that holds it, or `mechanisms = true` in the first lines of the file if the parts are meant to move so";
+            return Err(text
+                .refusal(format_args!("joints.{joint}"), mechanism, expected)
+                .into());
+        }
+        let told = freedom
+            .mechanisms
+            .iter()
+            .map(|(joint, mechanism)| format!("joint {}: {mechanism}", model.joints[*joint].name));
+        let told: Vec<String> = told.collect();
+        model.warnings.extend(told);
+        model.notes = freedom.notes;
+        Ok(model)
     }
 }
 

@@ -178,7 +178,8 @@ impl AssemblyModel {
     /// and dissipated (J). Between the rows the loads are straight.
     ///
     /// # Errors
-    /// [`AssemblyError::Grows`] where the motion leaves what is finite, [`AssemblyError::Law`] where a joint gives no law.
+    /// [`AssemblyError::Grows`] where the motion leaves what is finite, [`AssemblyError::TooLong`] where 4096 parts of a step are
+    /// too few, [`AssemblyError::Law`] where a joint gives no law.
     pub fn history(
         &self,
         duration_s: f64,
@@ -226,6 +227,9 @@ impl AssemblyModel {
                     .map(|(next, now)| next - now)
                     .collect();
                 steps.step(&mut state, &now, &change);
+                if steps.was_too_long() {
+                    return Err(AssemblyError::TooLong { time_s, step_s });
+                }
             }
             progress(step as f64 / count as f64);
         }

@@ -12,6 +12,8 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(crate) struct AssemblyTables {
     pub(crate) name: String,
+    #[serde(default)]
+    pub(crate) mechanisms: bool,
     pub(crate) structures: BTreeMap<String, StructureTable>,
     #[serde(default)]
     pub(crate) joints: Vec<JointTable>,

@@ -165,6 +165,8 @@ pub(crate) enum Refusal {
     StateNotFinite { name: Name, time_s: f64 },
     /// The motion would grow beyond all bounds within a step.
     GrowsWithinStep { interval_s: f64, time_s: f64 },
+    /// A step of which 4096 parts are too long for the joints of an assembly.
+    TooLongForJoints { interval_s: f64, time_s: f64 },
     /// A log category that the model description does not define.
     UnknownCategory { found: String },
     /// An FMU state that this library did not make.

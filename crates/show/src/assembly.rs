@@ -87,6 +87,7 @@ pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
             .extend(against.map(|reason| format!("{}: {reason}", joint.name)));
     }
     shown.warnings.clone_from(&model.warnings);
+    shown.facts_of("notes", model.notes.iter().cloned());
     shown.detail("name", model.name.clone());
     shown.detail(
         "structures",

@@ -8,7 +8,7 @@ use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
 use super::super::invocation::platforms;
-use super::super::output::{check_output, message, print, warn};
+use super::super::output::{check_output, message, note, print, warn};
 use super::super::table::number;
 use super::ExportArguments;
 
@@ -42,6 +42,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         })?;
     exported.packed.write(&arguments.output)?;
     warn(&model.warnings);
+    note(&model.notes);
     for joint in &model.joints {
         for reason in joint.file.reasons_against() {
             message(&format!(
@@ -58,7 +59,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     }
     if arguments.json {
         return print(&serde_json::to_string_pretty(&as_json(
-            &exported, arguments,
+            &exported, &model, arguments,
         ))?);
     }
     print(&summary(&exported, &model, arguments))
@@ -93,7 +94,11 @@ fn summary(
     )
 }
 
-fn as_json(exported: &ExportedAssembly, arguments: &ExportArguments) -> serde_json::Value {
+fn as_json(
+    exported: &ExportedAssembly,
+    model: &AssemblyModel,
+    arguments: &ExportArguments,
+) -> serde_json::Value {
     let packed = &exported.packed;
     let entries = packed.entries.iter();
     json!({
@@ -104,6 +109,8 @@ fn as_json(exported: &ExportedAssembly, arguments: &ExportArguments) -> serde_js
         "token": exported.token,
         "coordinates": exported.coordinates,
         "suggested_step_s": exported.suggested_step_s,
+        "warnings": model.warnings,
+        "notes": model.notes,
         "platforms": packed.libraries.iter().map(|library| &library.platform).collect::<Vec<_>>(),
         "entries": entries
             .map(|entry| json!({ "path": entry.path, "size": entry.size }))

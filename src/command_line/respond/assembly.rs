@@ -9,7 +9,7 @@ use bolted_joint::respond::AssemblyAnswer;
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
-use super::super::output::{check_output, has_extension, print, warn, write_file};
+use super::super::output::{check_output, has_extension, note, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
 use super::picture::Picture;
@@ -52,6 +52,7 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
         write_file(path, drawing.as_bytes())?;
     }
     warn(&model.warnings);
+    note(&model.notes);
     let output = output.display();
     if arguments.json {
         let modes = answer.modes.iter().map(|mode| json!({ "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio }));
@@ -64,6 +65,7 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
             })).collect::<Vec<_>>(),
             "modes": modes.collect::<Vec<_>>(),
             "warnings": model.warnings,
+            "notes": model.notes,
         });
         print(&serde_json::to_string_pretty(&value)?)?;
     } else {

@@ -41,6 +41,7 @@ pub struct AssemblySteps {
     ladder: Ladder,
     largest_angle: f64,
     scratch: Vec<Scratch>,
+    is_too_long: bool,
 }
 
 /// Room for what a step computes, one for each halving.
@@ -74,6 +75,7 @@ impl AssemblySteps {
             system,
             ladder,
             scratch,
+            is_too_long: false,
         })
     }
 
@@ -99,7 +101,8 @@ impl AssemblySteps {
     }
 
     /// Moves the state on by one step, in which the loads go from `loads` evenly to `loads` + `change` (m numbers each). Where the
-    /// joints ask for it the step is taken in halves, each in halves again, up to 4096 parts. Says how many parts it took.
+    /// joints ask for it the step is taken in halves, each in halves again, up to 4096 parts; where that
+    /// was not enough, [`Self::was_too_long`] says so. Says how many parts it took.
     pub fn step(&mut self, state: &mut AssemblyState, loads: &[f64], change: &[f64]) -> usize {
         self.step_along(state, |power, load| match power {
             0 => loads[load],
@@ -121,7 +124,15 @@ impl AssemblySteps {
                 }
             }
         }
+        self.is_too_long = false;
         self.part(state, 0, HALVINGS_AT_EVENTS)
+    }
+
+    /// Whether in the latest step some of its shortest parts were still too long for the stiffness of the joints, so that the
+    /// tolerance does not hold.
+    #[must_use]
+    pub fn was_too_long(&self) -> bool {
+        self.is_too_long
     }
 
     /// One step of the given level, with the loads in its scratch, that may still be halved so often at events.
@@ -136,9 +147,11 @@ impl AssemblySteps {
         };
         own.take(&self.system, rung, state);
         let is_finest = finer.is_empty();
+        let is_steep = own.is_steep(&self.system, rung, state, self.largest_angle);
+        self.is_too_long |= is_finest && is_steep && !self.system.laws.is_empty();
         let at_events = match is_finest {
             true => None,
-            false if own.is_steep(&self.system, rung, state, self.largest_angle) => Some(at_events),
+            false if is_steep => Some(at_events),
             false if own.has_event(&self.system, state) => at_events.checked_sub(1),
             false => None,
         };

@@ -1,6 +1,10 @@
 //! What an instance and an FMU state of the importer point to.
 
-use std::ffi::c_void;
+use std::{
+    collections::BTreeSet,
+    ffi::c_void,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
 
 use crate::{
     abi::Opaque, fmu_state::Snapshot, instance::Instance, logging::Logger, models::MODEL_SIZE_MAX,
@@ -30,8 +34,14 @@ pub(crate) struct IntermediateUpdate {
     pub(crate) early_return_allowed: bool,
 }
 
-/// Marks a living FMU state: "bjstat" and a version.
-const STATE: u64 = 0x626a_7374_6174_0003;
+/// Addresses of the FMU states that live: an importer's pointer is looked up before anything is read through it.
+static STATES: Mutex<BTreeSet<usize>> = Mutex::new(BTreeSet::new());
+
+fn living() -> MutexGuard<'static, BTreeSet<usize>> {
+    // the set is whole whatever a thread has done that stopped
+    STATES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Left behind in what was freed.
 const FREED: u64 = 0;
 
@@ -62,9 +72,7 @@ pub(crate) struct Handle {
 const _: () = assert!(size_of::<Handle>() + MODEL_SIZE_MAX <= 11 << 10);
 
 /// What an `fmi2FMUstate` or `fmi3FMUState` points to.
-#[repr(C)]
 pub(crate) struct StateHandle {
-    mark: u64,
     pub(crate) snapshot: Snapshot,
 }
 
@@ -160,29 +168,25 @@ pub(crate) unsafe fn free(abi: Abi, handle: Opaque) -> bool {
 
 /// Hands an FMU state over to the importer.
 pub(crate) fn state_to_c(snapshot: Snapshot) -> Opaque {
-    Box::into_raw(Box::new(StateHandle {
-        mark: STATE,
-        snapshot,
-    }))
-    .cast()
+    let state: Opaque = Box::into_raw(Box::new(StateHandle { snapshot })).cast();
+    living().insert(state as usize);
+    state
 }
 
-/// The FMU state behind the importer's pointer, or `None` for a null pointer and for what is not an FMU state.
+/// The FMU state behind the importer's pointer, or `None` for a pointer to anything else, which need not even be readable: to
+/// nothing, to what is freed, to a state of another FMU.
+///
+/// What cannot be known: a freed state whose memory a later one took is that later one.
 ///
 /// # Safety
 ///
-/// `state` is null or points to readable memory; if that is an FMU state, nothing else refers to it.
+/// If `state` is an FMU state, nothing else refers to it.
 pub(crate) unsafe fn state_from_c<'a>(state: Opaque) -> Option<&'a mut StateHandle> {
-    let state = state.cast::<StateHandle>();
-    if state.is_null() || !state.is_aligned() {
+    if !living().contains(&(state as usize)) {
         return None;
     }
-    // SAFETY: the mark comes first (repr(C)) and is readable, by the caller's promise
-    if unsafe { (&raw const (*state).mark).read() } != STATE {
-        return None;
-    }
-    // SAFETY: the mark says that this is an FMU state, to which the caller has the only pointer
-    Some(unsafe { &mut *state })
+    // SAFETY: made by `state_to_c` and not freed, and the caller has the only pointer to it
+    Some(unsafe { &mut *state.cast::<StateHandle>() })
 }
 
 /// Frees an FMU state; tells whether it was one.
@@ -191,12 +195,16 @@ pub(crate) unsafe fn state_from_c<'a>(state: Opaque) -> Option<&'a mut StateHand
 ///
 /// As for [`state_from_c`]; the pointer must not be used again.
 pub(crate) unsafe fn free_state(state: Opaque) -> bool {
-    // SAFETY: the caller's promise
-    let Some(state) = (unsafe { state_from_c(state) }) else {
+    let mut states = living();
+    if !states.remove(&(state as usize)) {
         return false;
-    };
-    state.mark = FREED;
-    // SAFETY: made by Box::into_raw in `state_to_c`
-    drop(unsafe { Box::from_raw(state) });
+    }
+    if states.is_empty() {
+        // leaves no memory behind when the library is unloaded
+        *states = BTreeSet::new();
+    }
+    drop(states);
+    // SAFETY: made by Box::into_raw in `state_to_c`, and the last that knew it
+    drop(unsafe { Box::from_raw(state.cast::<StateHandle>()) });
     true
 }

@@ -221,6 +221,11 @@ impl fmt::Display for Refusal {
                 "the motion grows beyond all bounds in a step of {interval_s} s from t = {time_s} s: a joint or a structure \
                  feeds energy, or the step is far too long"
             ),
+            Self::TooLongForJoints { interval_s, time_s } => write!(
+                f,
+                "the joints are so stiff at t = {time_s} s that 4096 parts of a step of {interval_s} s are too long for them; \
+                 take shorter communication steps"
+            ),
             Self::UnknownCategory { found } => write!(
                 f,
                 "log category \"{found}\" does not exist; take it from <LogCategories> in modelDescription.xml"

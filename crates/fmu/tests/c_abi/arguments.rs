@@ -430,6 +430,10 @@ fn bad_states_are_refused() {
         let size = before.len();
         let mut memory = [0_u64; 64];
         let foreign: *mut c_void = memory.as_mut_ptr().cast();
+        // no memory can be read there
+        let nowhere: *mut c_void = ptr::without_provenance_mut(64);
+        let freed = instance.save();
+        instance.free_state(freed);
         let mut content = vec![0_u8; size + 1];
         let bytes = content.as_mut_ptr();
         let (mut number, mut variable, mut new) = (0, foreign, ptr::null_mut::<c_void>());
@@ -460,6 +464,9 @@ fn bad_states_are_refused() {
             ("was not made by this library", &|i| get(i, variable)),
             ("argument FMUState is a null pointer", &|i| i.restore(null)),
             ("was not made by this library", &|i| i.restore(foreign)),
+            ("was not made by this library", &|i| i.restore(nowhere)),
+            ("or is already freed", &|i| i.restore(freed)),
+            ("or is already freed", &|i| measure(i, freed, number)),
             ("was not made by this library", &|i| free(i, variable)),
             ("argument FMUState is a null pointer", &|i| {
                 measure(i, null, number)

@@ -153,10 +153,17 @@ impl Model for AssemblyModel {
                 }
             }
         });
+        let was_too_long = steps.was_too_long();
         if h != step.interval_s {
             self.go_on(values, step.interval_s - h);
         }
         self.check_finite(step.time_s + step.interval_s)?;
+        if was_too_long {
+            return Err(Refusal::TooLongForJoints {
+                interval_s: step.interval_s,
+                time_s: step.time_s,
+            });
+        }
         self.write_state(values);
         Ok(None)
     }

@@ -74,10 +74,7 @@ fn followed(
     estimate: &Estimate,
 ) -> Option<(Estimate, Option<Observed>)> {
     let levels = estimate.levels;
-    let start = (
-        estimate.unknowns.clone(),
-        Arc::clone(&estimate.corrections),
-    );
+    let start = (estimate.unknowns.clone(), Arc::clone(&estimate.corrections));
     let (mut weights, mut state) = settled(objective, levels, start)?;
     let mut unrest = f64::INFINITY;
     for round in 0..=STEPS {

@@ -176,7 +176,7 @@ pub(crate) fn search(
         }
         let damping = damping(before.as_ref(), &step, &deviation);
         let mut step = step * (part * damping);
-        if frozen && largest > LONG {
+        if (frozen || !has_labelled) && largest > LONG {
             let now = cost + priors_cost(task, &point);
             let down = descending(task, &point, &step, (&terms, &whitened), now);
             stuck = if down.is_some() { 0 } else { stuck + 1 };

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{Beam, BeamPoint, ComplexMatrix, ModalBeam};
+use bolted_joint_frf::structure::{Beam, BeamPoint, ComplexMatrix, ModalBeam, Motion};
 use bolted_joint_systematic::{Change, Computation, Compute};
 
 use super::super::study::Substructure;
@@ -69,13 +69,48 @@ impl<'a> BeamAnew<'a> {
         ))
     }
 
+    fn on_the_beam(&self, point: BeamPoint) -> BeamPoint {
+        BeamPoint {
+            position_m: point.position_m.clamp(0.0, self.beam.length_m),
+            ..point
+        }
+    }
+
+    /// Beyond an end, where an error of a place can put a sensor that is at the end, the beam goes on straight: at a free end nothing
+    /// bends it, so that the first two derivatives by the place have no jump there.
     fn receptances(
         &self,
         modal: &ModalBeam,
         dofs: &[(BeamPoint, f64)],
     ) -> Option<Vec<ComplexMatrix>> {
-        let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
-        let receptances = modal.receptances(&points, self.frequency_hz).ok()?;
+        let mut points: Vec<BeamPoint> = Vec::with_capacity(dofs.len());
+        let mut arms_m: Vec<(usize, f64)> = Vec::new();
+        for (number, &(point, _)) in dofs.iter().enumerate() {
+            let on = self.on_the_beam(point);
+            let arm_m = point.position_m - on.position_m;
+            if arm_m != 0.0 && point.motion == Motion::Translation {
+                arms_m.push((number, arm_m));
+            }
+            points.push(on);
+        }
+        let rotations = arms_m.iter().map(|&(number, _)| BeamPoint {
+            motion: Motion::Rotation,
+            ..points[number]
+        });
+        let rotations: Vec<BeamPoint> = rotations.collect();
+        points.extend(rotations);
+        let mut receptances = modal.receptances(&points, self.frequency_hz).ok()?;
+        if !arms_m.is_empty() {
+            // w(L + d) = w(L) + d θ(L)
+            let mut arm = ComplexMatrix::identity(dofs.len(), points.len());
+            for (extra, &(number, arm_m)) in arms_m.iter().enumerate() {
+                arm[(number, dofs.len() + extra)] = arm_m.into();
+            }
+            let transposed = arm.transpose();
+            for receptance in &mut receptances {
+                *receptance = &arm * &*receptance * &transposed;
+            }
+        }
         Some(signed(receptances, dofs))
     }
 }
@@ -89,7 +124,8 @@ impl Compute for BeamAnew<'_> {
             ..self.beam.clone()
         };
         let dofs = self.dofs(change)?;
-        let points: Vec<BeamPoint> = dofs.iter().map(|&(point, _)| point).collect();
+        let points = dofs.iter().map(|&(point, _)| self.on_the_beam(point));
+        let points: Vec<BeamPoint> = points.collect();
         Some(Box::new(ChangedBeam {
             of: self,
             modal: beam.modal(&points).ok()?,

@@ -176,7 +176,8 @@ pub(crate) fn search(
         }
         let damping = damping(before.as_ref(), &step, &deviation);
         let mut step = step * (part * damping);
-        if (frozen || !has_labelled) && largest > LONG {
+        let is_long = largest > if has_labelled { LONG } else { TOLERANCE };
+        if (frozen || !has_labelled) && is_long {
             let now = cost + priors_cost(task, &point);
             let down = descending(task, &point, &step, (&terms, &whitened), now);
             stuck = if down.is_some() { 0 } else { stuck + 1 };

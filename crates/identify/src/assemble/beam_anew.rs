@@ -9,6 +9,10 @@ use bolted_joint_systematic::{Change, Computation, Compute};
 use super::super::study::Substructure;
 use super::substructure::{beam_dofs, signed};
 
+/// Part of the length below which a joint that has moved gets no node beside another one: an element so short leaves rounding in the
+/// low modes.
+const CLOSE: f64 = 1e-2;
+
 /// A beam with its joint and points as the study has them.
 pub(in super::super) struct BeamAnew<'a> {
     beam: &'a Beam,
@@ -55,7 +59,8 @@ impl<'a> BeamAnew<'a> {
 
     /// The joint's DOFs and the points where the change puts them.
     fn dofs(&self, change: &Change) -> Option<Vec<(BeamPoint, f64)>> {
-        let moved = self.joints_m.iter().zip(&change.joint_m);
+        let by = change.joint_m.iter().copied().chain(std::iter::repeat(0.0));
+        let moved = self.joints_m.iter().zip(by);
         let joints_m: Vec<f64> = moved.map(|(position_m, by)| position_m + by).collect();
         let mut positions_m = self.positions_m.clone();
         for (point, by) in self.points.iter().zip(&change.points_m) {
@@ -74,6 +79,29 @@ impl<'a> BeamAnew<'a> {
             position_m: point.position_m.clamp(0.0, self.beam.length_m),
             ..point
         }
+    }
+
+    /// Nodes for these DOFs: the joints where they have moved to, since a moment beside a node lacks the deflection of its own
+    /// element, and the points where the study has them. A joint that comes close to another node stays where the study has it.
+    fn nodes(&self, dofs: &[(BeamPoint, f64)]) -> Option<Vec<BeamPoint>> {
+        let stated = self.dofs(&Change::default())?;
+        let of_joints = self.dofs_of_a_bolt * self.joints_m.len();
+        let ends = [0.0, self.beam.length_m];
+        let others = stated.iter().skip(of_joints);
+        let others: Vec<f64> = others
+            .map(|(point, _)| point.position_m)
+            .chain(ends)
+            .collect();
+        let pairs = dofs.iter().zip(&stated).enumerate();
+        let node = |(number, (&(moved, _), &(stated, _))): (usize, (&(BeamPoint, f64), _))| {
+            let is_close =
+                |other: &f64| (other - moved.position_m).abs() < CLOSE * self.beam.length_m;
+            match number < of_joints && !others.iter().any(is_close) {
+                true => self.on_the_beam(moved),
+                false => stated,
+            }
+        };
+        Some(pairs.map(node).collect())
     }
 
     /// Beyond an end, where an error of a place can put a sensor that is at the end, the beam goes on straight: at a free end nothing
@@ -124,11 +152,10 @@ impl Compute for BeamAnew<'_> {
             ..self.beam.clone()
         };
         let dofs = self.dofs(change)?;
-        let points = dofs.iter().map(|&(point, _)| self.on_the_beam(point));
-        let points: Vec<BeamPoint> = points.collect();
+        let nodes = self.nodes(&dofs)?;
         Some(Box::new(ChangedBeam {
             of: self,
-            modal: beam.modal(&points).ok()?,
+            modal: beam.modal(&nodes).ok()?,
             dofs,
         }))
     }

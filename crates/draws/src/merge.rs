@@ -220,9 +220,9 @@ mod tests {
             ),
         ];
         for (change, said) in rows {
-            let (path, mut file) = part("p.json", 0, 6);
+            let (path, mut file) = part("p.json", 3, 3);
             change(&mut file);
-            let refused = together(vec![(path, file)]).unwrap_err();
+            let refused = together(vec![part("a.json", 0, 3), (path, file)]).unwrap_err();
             assert!(
                 refused.starts_with("p.json: ") && refused.contains(said),
                 "{refused}"

@@ -118,7 +118,7 @@ pub struct BeamModes {
 
 impl Beam {
     /// Receptances between all `points`, one matrix (points×points) for each frequency: every mode of the
-    /// finite-element model is summed. All points are nodes of the mesh, save those within 1e-4 of the length
+    /// finite-element model is summed. All points are nodes of the mesh, save those within 1e-3 of the length
     /// of another.
     ///
     /// # Errors

@@ -76,18 +76,17 @@ fn followed(
     let levels = estimate.levels;
     let start = (estimate.unknowns.clone(), Arc::clone(&estimate.corrections));
     let (mut weights, mut state) = settled(objective, levels, start)?;
-    let mut unrest = f64::INFINITY;
-    for round in 0..=STEPS {
+    let mut steps = 0;
+    loop {
         let curvature = Curvature::at(objective, levels, &state)?;
         let observed = curvature.observed();
         if observed.is_void() {
             return Some((estimate.clone(), Some(observed)));
         }
         let step = curvature.step(&state.normal.gradient);
-        let deviation = curvature.deviation();
-        unrest = step.component_div(&deviation).amax();
-        if unrest < NEGLIGIBLE_STEP || round == STEPS {
-            let converged = unrest < NEGLIGIBLE_STEP;
+        let unrest = step.component_div(&curvature.deviation()).amax();
+        let converged = unrest < NEGLIGIBLE_STEP;
+        if converged || steps == STEPS {
             let end = (weights, state, levels);
             let found = arrived(objective, noise, end, (converged, unrest));
             return Some((found, Some(observed)));
@@ -95,8 +94,8 @@ fn followed(
         let part = (LONGEST_STEP / unrest).min(1.0);
         let next = (&state.unknowns + step * part, state.corrections);
         (weights, state) = settled(objective, levels, next)?;
+        steps += 1;
     }
-    None
 }
 
 /// The point with these unknowns, once the corrections have come to rest.
@@ -146,7 +145,7 @@ impl Curvature {
     }
 
     fn observed(&self) -> Observed {
-        // ½ (H⁻¹ M H⁻¹ − M⁻¹): M may be too large, but it is no scatter's excuse for an interval that is too short
+        // ½ (H⁻¹ M H⁻¹ − M⁻¹), and nothing where M is the smaller one: no interval becomes shorter
         let added = self.with_parts(|part| {
             let part = part.clamp(LEAST_PART, 1.0);
             0.5 * (1.0 / (part * part) - 1.0)

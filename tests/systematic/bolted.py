@@ -237,13 +237,29 @@ def in_deviations(files, joints):
     return np.concatenate(z)
 
 
-def near(program, folder, seed, bolts, spacing):
-    """Joints of bolts that are near each other, where all functions have noise of 1 %: errors in deviations, and what is said."""
+def near(program, folder, seed, bolts, spacing, budget='"none"', model="full"):
+    """Joints of bolts that are near each other, where all functions have noise of 1 %: errors in deviations, and what is said. Of the
+    model "translation" the joints have k_yy and c_yy alone."""
     test = Rig(bolts, spacing=spacing)
     joints = drawn(np.random.default_rng(seed), bolts, equal=False)
+    if model == "translation":
+        joints = [tuple(m * np.diag([1.0, 0.0]) for m in joint) for joint in joints]
     sets = test.test_data(rig.Mistakes(), joints, 0.01, seed)
-    _, _, whole = identified(program, test.write(folder, sets, "relative = 0.01\nfloor = 0"), bolts)
-    return in_deviations([one["joint_file"] for one in whole["bolts"]], joints), whole
+    study = test.write(folder, sets, "relative = 0.01\nfloor = 0", budget=budget)
+    text = study.read_text(encoding="utf-8")
+    study.write_text(text.replace('model = "full"', f'model = "{model}"'), encoding="utf-8")
+    _, _, whole = identified(program, study, bolts)
+    files = [one["joint_file"] for one in whole["bolts"]]
+    if model == "translation":
+        return np.concatenate([of_translation(file, joint) for file, joint in zip(files, joints)]), whole
+    return in_deviations(files, joints), whole
+
+
+def of_translation(file, joint):
+    """Errors of k_yy and c_yy in their standard deviations."""
+    deviations = file["uncertainty"]["standard_deviation"]
+    names = zip(("stiffness", "damping"), joint)
+    return np.array([(file["joint"][name][0][0] - exact[0, 0]) / deviations[name][0][0] for name, exact in names])
 
 
 def main(draws=24, bolts=2):

@@ -38,6 +38,15 @@ def test_deviations_of_bolts_near_each_other_hold_where_all_functions_have_noise
     assert np.mean(abs(z) < 1.96) > 0.85 and abs(z).max() < 4.5, z
 
 
+def test_they_hold_with_the_error_budget_and_without_rotation(program, tmp_path):
+    for number, options in enumerate([{"budget": None}, {"model": "translation"}]):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        z, whole = bolted.near(program, folder, 4, 2, 0.03, **options)
+        assert whole["usable"], (options, whole["reasons_against"])
+        assert abs(z).max() < 4, (options, z)
+
+
 def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(program, tmp_path):
     _, whole = bolted.near(program, tmp_path, 1, 3, 0.03)
     assert not whole["usable"]

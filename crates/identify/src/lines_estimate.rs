@@ -378,8 +378,10 @@ pub fn identify_lines(
     let places = layout.places();
     let used = Arc::clone(&found.used);
     let objective = used.assemblies.objective(&places);
-    let (estimate, observed) = observed::observed(&objective, noise, found.estimate);
-    found.estimate = estimate;
+    let mut observed = None;
+    if layout.joints() > 1 {
+        (found.estimate, observed) = observed::observed(&objective, noise, found.estimate);
+    }
     let estimate = &found.estimate;
     let names = options.bolts.with_own_joint();
     let covariance = CovarianceOfAll::of(&objective, noise, &found, observed.as_ref());

@@ -23,7 +23,6 @@ use super::layout::Place;
 use super::noise::Levels;
 use super::normal::Normal;
 use super::parallel;
-use super::strip::ENTRIES_OF_ONE;
 
 /// Stiffness, beside the substructures' own dynamic stiffness at the joint, of a joint that is rigid for all that can be measured.
 const RIGID: f64 = 1e6;
@@ -255,12 +254,6 @@ impl Objective<'_> {
             .iter()
             .any(|group| group.dofs() > DOFS_OF_TWO_BOLTS);
         has_many && self.entries.iter().all(|place| place.is_single()) && !self.is_independent()
-    }
-
-    /// Whether several bolts have joints of their own.
-    pub(super) fn has_bolts_of_their_own(&self) -> bool {
-        let is_own = |place: &Place| place.is_single();
-        self.entries.len() > ENTRIES_OF_ONE && self.entries.iter().all(is_own)
     }
 
     /// Whether all entries have errors of their own: no substructure's error is an unknown.

@@ -3,7 +3,7 @@
 //! Sensitivities J follow from receptances that have noise, so that M = JᵀΣ⁻¹J has this noise's square in it. Where bolts move nearly
 //! alike that is most of M. The second derivative H of what is minimised, the corrections of the substructures following, does not have
 //! it, as that of total least squares, XᵀX − nσ²1, has not. What scatters with variance ½ M is the score (W. A. Fuller, Measurement
-//! Error Models, 1987, section 3.2: estimates whose errors in the regressors are corrected for), so that
+//! Error Models, 1987, of estimates that are corrected for errors in the regressors), so that
 //!
 //! Cov θ̂ = ½ H⁻¹ M H⁻¹.
 //!
@@ -55,14 +55,14 @@ struct Curvature {
     parts: SymmetricEigen<f64, nalgebra::Dyn>,
 }
 
-/// The estimate led on to the minimum by the second derivative, and what this says there. Where M is all that there is to know, as
-/// between substructures without errors or at one bolt, the estimate stays what it is.
+/// The estimate of several bolts with joints of their own, led on to the minimum by the second derivative, and what this says there.
+/// Between substructures without errors M is all that there is to know, and the estimate stays what it is.
 pub(super) fn observed(
     objective: &Objective<'_>,
     noise: &Noise,
     estimate: Estimate,
 ) -> (Estimate, Option<Observed>) {
-    if !objective.has_bolts_of_their_own() || objective.is_independent() {
+    if objective.is_independent() {
         return (estimate, None);
     }
     followed(objective, noise, &estimate).unwrap_or((estimate, None))

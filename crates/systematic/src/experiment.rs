@@ -156,7 +156,7 @@ pub struct Change {
 
 /// Computes a structure anew.
 pub trait Compute: Sync {
-    /// The structure with a change; `None` where that is impossible, such as a point beyond its end.
+    /// The structure with a change; `None` where that is impossible, such as a modulus below zero. A point may be beyond its end.
     fn changed(&self, change: &Change) -> Option<Box<dyn Computation + '_>>;
 }
 

@@ -91,20 +91,11 @@ fn recomputed(
             moved[number] += offset;
             self::change(experiment, side, priors, &moved)
         };
-        let nearby = |offset: f64| computation.nearby(&moved(offset));
-        // one-sided where the other side is beyond the structure's end
-        let anew = |offset: f64| computed.compute.changed(&moved(offset))?.receptances();
-        let slope = |above: &[ComplexMatrix], below: &[ComplexMatrix], width: f64| {
-            let pairs = above.iter().zip(below);
-            let slope = pairs.map(|(above, below)| (above - below) / Complex64::from(width));
-            Some((number, slope.collect::<Vec<_>>()))
-        };
-        match (nearby(step), nearby(-step)) {
-            (Some(above), Some(below)) => slope(&above, &below, 2.0 * step),
-            (Some(_), None) => slope(&anew(step)?, &receptances, step),
-            (None, Some(_)) => slope(&receptances, &anew(-step)?, step),
-            (None, None) => None,
-        }
+        let above = computation.nearby(&moved(step))?;
+        let below = computation.nearby(&moved(-step))?;
+        let pairs = above.iter().zip(&below);
+        let slope = pairs.map(|(above, below)| (above - below) / Complex64::from(2.0 * step));
+        Some((number, slope.collect::<Vec<_>>()))
     };
     let acting: Vec<(usize, &Prior)> = priors
         .iter()

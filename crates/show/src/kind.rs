@@ -85,8 +85,9 @@ impl FileKind {
             (Some(TextKind::Study(method)), _) => Self::Study(method),
             (Some(TextKind::Assembly), _) => Self::Assembly,
             (Some(TextKind::Modes), _) => Self::Modes,
-            (None, Some(container)) => Self::Functions(container),
-            (None, None) => Self::Unknown,
+            // a comment and a misspelt key look like a table; the reader of TOML knows what the key should be
+            (None, Some(container)) if !named("toml") => Self::Functions(container),
+            (None, _) => Self::Unknown,
         }
     }
 }
@@ -210,7 +211,7 @@ mod tests {
     fn files_are_told_by_what_is_in_them() {
         let folder = tempfile::tempdir().unwrap();
         #[rustfmt::skip]
-        let cases: [(&str, &[u8], FileKind); 16] = [
+        let cases: [(&str, &[u8], FileKind); 18] = [
             ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.csv", b"1,2\n", FileKind::Functions(Container::Table)),
@@ -223,6 +224,8 @@ mod tests {
             ("o.json", b"{\"a\": 1}", FileKind::OtherJson),
             ("c.toml", b"# a study\nmethod = \"respond\"\n", FileKind::Study(Some(Method::Respond))),
             ("s.toml", b"method = \"respond\"\n", FileKind::Study(Some(Method::Respond))),
+            ("m.toml", b"# a study\nmethd = \"respond\"\n", FileKind::Study(None)),
+            ("t.toml", b"# a study\nname = \"a\"\n", FileKind::Unknown),
             ("s.json", b"method = 1\n", FileKind::Unknown),
             ("e.toml", b" \n", FileKind::Unknown),
             ("z.zip", b"PK\x03\x04", FileKind::OtherZip),

@@ -1,5 +1,7 @@
 //! What a TOML file of this program is for: told by its keys, and where it cannot be parsed by its lines.
 
+use bolted_joint_joint::nearest;
+
 use super::{Method, StudyText};
 
 /// What a TOML file is for.
@@ -38,7 +40,10 @@ fn of_table(table: &toml::Table) -> Option<TextKind> {
     } else if is_list("points") && is_list("mode") {
         Some(TextKind::Modes)
     } else {
-        None
+        // misspelt: the reader of studies says so
+        let is_method = |key: &String| nearest(key, &["method"]).is_some();
+        let means_study = table.keys().any(is_method);
+        means_study.then_some(TextKind::Study(None))
     }
 }
 

@@ -68,8 +68,24 @@ impl StudyText {
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
         toml::from_str(&self.text).map_err(|error| StudyError::Syntax {
             path: self.path.clone(),
-            message: with_suggestion(error.to_string().trim_end()),
+            message: self.with_misspelt(with_suggestion(error.to_string().trim_end())),
         })
+    }
+
+    /// A message of the parser's; where a key is missing, with the one that may have been meant for it.
+    fn with_misspelt(&self, message: String) -> String {
+        let missing = message
+            .split_once(MISSING)
+            .and_then(|(_, rest)| rest.split('`').next());
+        let Some(missing) = missing else {
+            return message;
+        };
+        let table = toml::from_str::<toml::Table>(&self.text).unwrap_or_default();
+        let found = table.keys().find(|key| nearest(key, &[missing]).is_some());
+        match found {
+            Some(found) => format!("{message}; found `{found}`, did you mean `{missing}`?"),
+            None => message,
+        }
     }
 
     /// The method that the study asks for, whatever else is in it.
@@ -97,6 +113,9 @@ impl StudyText {
 
 /// What serde says of a key that does not belong.
 const UNKNOWN: [&str; 2] = ["unknown field `", "unknown variant `"];
+
+/// What serde says of a key that is missing.
+const MISSING: &str = "missing field `";
 
 /// A message of the parser's; where a key or a word is not known, with the one that it was meant to be.
 fn with_suggestion(message: &str) -> String {
@@ -138,5 +157,12 @@ mod tests {
             refused.ends_with("did you mean `frf-decoupling`?"),
             "{refused}"
         );
+        let misspelt = StudyText::new("methd = \"respond\"", Path::new("s.toml"));
+        let refused = misspelt.method().unwrap_err().to_string();
+        assert!(
+            refused.ends_with("missing field `method`; found `methd`, did you mean `method`?"),
+            "{refused}"
+        );
+        assert_eq!(misspelt.kind(), Some(crate::TextKind::Study(None)));
     }
 }

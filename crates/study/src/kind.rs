@@ -41,8 +41,9 @@ fn of_table(table: &toml::Table) -> Option<TextKind> {
         Some(TextKind::Modes)
     } else {
         // misspelt: the reader of studies says so
-        let is_method = |key: &String| nearest(key, &["method"]).is_some();
-        let means_study = table.keys().any(is_method);
+        let mut values = table.iter();
+        let means_study =
+            values.any(|(key, value)| value.is_str() && nearest(key, &["method"]).is_some());
         means_study.then_some(TextKind::Study(None))
     }
 }

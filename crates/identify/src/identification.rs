@@ -192,7 +192,6 @@ pub fn identify_and_draw(
         Systematic::of(study, &all, &estimate)
             .filter(|found| slips.is_empty() || found.explains_the_data())
     });
-    let systematic = systematic.map(|found| found.beside(&estimate));
     let slips = match systematic {
         Some(_) => Vec::new(),
         None => slips,

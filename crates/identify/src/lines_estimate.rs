@@ -147,6 +147,7 @@ impl LinesEstimate {
             warnings,
             joint_warnings,
             covariance_of_all: found.covariance.clone(),
+            observed: found.observed.clone(),
             unrest: if found.converged { 0.0 } else { f64::INFINITY },
             ..self
         }

@@ -41,6 +41,25 @@ pub(super) struct Observed {
 }
 
 impl Observed {
+    /// Of a covariance M⁻¹ and of H.
+    pub(super) fn of(covariance: &DMatrix<f64>, curvature: &DMatrix<f64>) -> Option<Self> {
+        // with M⁻¹ = R Rᵀ the parts are the eigenvalues of Rᵀ H R
+        let root = covariance.clone().cholesky()?.l();
+        let parts = (root.tr_mul(curvature) * &root).symmetric_eigen();
+            eprintln!("{:?}", parts.eigenvalues.as_slice());
+        }
+        let inverse_root = root.transpose();
+        let observed = Curvature {
+            inverse_root,
+            parts,
+        }
+        .observed();
+        Some(Self {
+            added: observed.added * 2.0,
+            ..observed
+        })
+    }
+
     /// Whether in some direction there is no information at all.
     pub(super) fn is_void(&self) -> bool {
         self.least_part < LEAST_PART

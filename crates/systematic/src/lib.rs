@@ -12,6 +12,7 @@ mod budget;
 mod cause;
 mod consistency;
 mod coupling;
+mod curvature;
 mod draw;
 mod effect;
 mod estimate;
@@ -32,6 +33,7 @@ mod suspect;
 pub use budget::{Budget, Prior, priors};
 pub use cause::{Cause, Group, MeasuredSet, Side};
 pub use consistency::{BandConsistency, BandEstimate, consistency};
+pub use curvature::curvature;
 pub use draw::{Origin, draw};
 pub use estimate::{
     CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, estimate_near, evaluated,

@@ -8,7 +8,7 @@ mod together;
 use bolted_joint_statistics::chi_squared_tail;
 use bolted_joint_systematic::{
     BandConsistency, Budget, Cause, CauseEstimate, Diagnosis, FAR, Group, MeasuredSet, Score,
-    Settings, Shares, Side, Start, Suspect, consistency, estimate, priors, refine,
+    Settings, Shares, Side, Start, Suspect, consistency, curvature, estimate, priors, refine,
 };
 use nalgebra::DMatrix;
 
@@ -20,6 +20,7 @@ use super::lines::Lines;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointMatrices;
 use super::noise::Levels;
+use super::observed::Observed;
 use super::study::Study;
 use explanation::{Find, diagnosed, explained};
 use together::together;
@@ -72,6 +73,8 @@ pub struct Systematic {
     pub without_smooth_fit: Vec<Side>,
     /// Whether the search came to rest.
     pub converged: bool,
+    /// How much of the information about bolts near each other is noise.
+    pub(super) observed: Option<Observed>,
     /// Noise of everything measured.
     levels: Levels,
 }
@@ -171,15 +174,6 @@ impl Systematic {
         layout.matrices(&found.unknowns).into_iter().next()
     }
 
-    /// The same with what noise of the substructures adds to the scatter of bolts near each other.
-    pub(super) fn beside(mut self, estimate: &LinesEstimate) -> Self {
-        if let Some(observed) = &estimate.observed {
-            self.covariance += &observed.added;
-            self.noise_covariance += &observed.added;
-        }
-        self
-    }
-
     fn at_levels(
         study: &Study,
         (all, joints): (&[Lines], &[usize]),
@@ -202,16 +196,27 @@ impl Systematic {
             suspects, scores, ..
         } = diagnosis;
         let mut noise_alone = plain.covariance.clone();
+        // Bolts near each other move nearly alike, and noise passes for information.
+        let mut observed = (layout.joints() > 1)
+            .then(|| curvature(&experiment, &found))
+            .flatten()
+            .and_then(|curvature| Observed::of(&found.covariance, &curvature));
         let searched = few.first().map_or(0, |few| few.frequency_hz.len());
         if searched < lines.frequency_hz.len() {
             let many = at_most(MOST_LINES);
             let experiment = experiment::of(study, &many, joints, layout, levels)?;
             if let Some(refined) = refine(&experiment, &found, &settings) {
                 found = refined;
+                // derivatives at smooth fits have no noise
+                observed = None;
             }
             if let Some(refined) = refine(&experiment, &plain, &settings) {
                 noise_alone.clone_from(&refined.covariance);
             }
+        }
+        if let Some(observed) = &observed {
+            found.covariance += &observed.added;
+            noise_alone += &observed.added;
         }
         let name = |cause: Cause| name(cause, study, lines);
         let consistency = BANDS.iter().filter_map(|&bands| consistency(&plain, bands));
@@ -243,6 +248,7 @@ impl Systematic {
             lines: (found.lines.0, lines.frequency_hz.len()),
             without_smooth_fit: found.without_smooth_fit,
             converged: found.converged,
+            observed,
             levels,
         })
     }

@@ -68,6 +68,7 @@ def test_sound_data_are_not_suspected(program, tmp_path):
     done, found = identified(program, tmp_path, rig.test_data(rig.Mistakes(), 0.01, seed=3))
     assert done.returncode == 0 and found["reasons_against"] == []
     assert "reciprocal" not in done.stderr and "drive point" not in done.stderr
+    assert "no load at the joint" not in done.stderr and "stiffer" not in done.stderr
 
 
 def test_before_any_fit_a_reversed_response_breaks_reciprocity(program, tmp_path):
@@ -75,3 +76,16 @@ def test_before_any_fit_a_reversed_response_breaks_reciprocity(program, tmp_path
     done, _ = identified(program, tmp_path, change(rig.test_data(rig.Mistakes(), 0.01, seed=3)))
     assert "the function from 12:+Y to 11:+Y has the opposite sign of that from 11:+Y to 12:+Y" in done.stderr
     assert "the drive point at 12:+Y feeds energy into the structure" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("a point reversed", "no load at the joint makes these functions of those of B"),
+        ("assembly in g", "the assembly is stiffer at 11:+Y, 12:+Y, 13:+Y than A and B would be with a rigid joint"),
+    ],
+)
+def test_before_any_fit_an_assembly_of_other_structures_is_told(program, tmp_path, name, words):
+    change, _ = SLIPS[name]
+    done, _ = identified(program, tmp_path, change(rig.test_data(rig.Mistakes(), 0.01, seed=3)))
+    assert words in done.stderr

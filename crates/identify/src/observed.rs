@@ -46,14 +46,13 @@ impl Observed {
         // with M⁻¹ = R Rᵀ the parts are the eigenvalues of Rᵀ H R
         let root = covariance.clone().cholesky()?.l();
         let parts = (root.tr_mul(curvature) * &root).symmetric_eigen();
-            eprintln!("{:?}", parts.eigenvalues.as_slice());
-        }
         let inverse_root = root.transpose();
         let observed = Curvature {
             inverse_root,
             parts,
         }
         .observed();
+        // here M is that of real numbers
         Some(Self {
             added: observed.added * 2.0,
             ..observed

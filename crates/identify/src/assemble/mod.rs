@@ -2,6 +2,7 @@
 
 mod axis;
 mod beam_anew;
+mod belonging;
 mod both_sides;
 mod known_mass;
 mod labelled;
@@ -154,5 +155,7 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
         repeats: mean.repeats,
         ..substructures(study, &axis, reader)?
     };
+    let foreign = belonging::warnings(&lines, path);
+    reader.warnings.extend(foreign);
     Ok(lines)
 }

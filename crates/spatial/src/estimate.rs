@@ -5,9 +5,9 @@ use nalgebra::DMatrix;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit, Squares, covariance};
 use crate::fits::strongest;
+use crate::hidden::{Beside, searched_beside};
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::level::{of_residuals, relative_rms, root_mean_square};
-use crate::hidden::{Beside, searched_beside};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
@@ -48,6 +48,8 @@ struct Found {
     estimated: Problem,
     /// What these say of both.
     information: DMatrix<f64>,
+    /// The substructures as they were found, and an exact set-up, at all lines.
+    shown: Problem,
     /// The joint alone, with the errors as they were found, at all lines.
     joint: Refined,
     /// Starts that were tried, and that agree.
@@ -133,6 +135,7 @@ impl SpatialStudy {
             },
             best,
             estimated,
+            shown: exact,
             starts,
         })
     }
@@ -167,6 +170,13 @@ impl SpatialStudy {
         let mut squares = Beside::of(&exact, &level, noise, &joint)?;
         let moved = squares.moved(&joint)?;
         let normal = squares.normal(&joint)?;
+        let mut shown = problem.displaced(&unknowns)?.smoothed()?;
+        let found = squares.found(&joint)?;
+        for (side, found) in shown.sides.iter_mut().zip(found.sides) {
+            for (&line, functions) in kept.iter().zip(found.lines) {
+                side.lines[line] = functions;
+            }
+        }
         let moved: f64 = moved.iter().map(|moved| moved.powi(2)).sum();
         Ok(Found {
             joint: Refined {
@@ -181,6 +191,7 @@ impl SpatialStudy {
             best,
             estimated,
             information,
+            shown,
             starts,
         })
     }
@@ -195,12 +206,12 @@ impl SpatialStudy {
             best,
             estimated,
             information,
+            shown,
             joint: alone,
             starts,
         } = found;
         let spread = Spread::of(estimated, information, alone.covariance.clone())
             .ok_or(SpatialError::NotDetermined)?;
-        let at = with_joint(&best.unknowns, &alone.unknowns);
         let Numbers {
             unknowns,
             matrices: [stiffness, damping],
@@ -222,7 +233,7 @@ impl SpatialStudy {
             }
         };
         let lines = alone.kept.len();
-        let compared = problem.with_lines(&alone.kept);
+        let compared = shown.with_lines(&alone.kept);
         let freedom = (alone.numbers - count) as f64;
         let reduced_chi_squared =
             matches!(self.level, Level::Relative(_)).then_some(alone.squares / freedom);
@@ -236,7 +247,7 @@ impl SpatialStudy {
             deviations_by_noise: deviations(model, &spread.by_noise),
             covariances,
             correlation,
-            relative_rms: relative_rms(&compared, &at)?,
+            relative_rms: relative_rms(&compared, &alone.unknowns)?,
             functions: problem.observed.len(),
             lines,
             substructures: (self.noise != [0.0; 2]).then_some(Substructures {
@@ -244,7 +255,7 @@ impl SpatialStudy {
                 moves: alone.moved,
             }),
             frequency_hz: problem.frequency_hz.clone(),
-            fits: strongest(problem, &at, &alone.kept)?,
+            fits: strongest(shown, &alone.unknowns, &alone.kept)?,
             reduced_chi_squared,
             budget_used: (errors > 0)
                 .then(|| squares_of_errors(problem, &best.unknowns) / errors as f64),

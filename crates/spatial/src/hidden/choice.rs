@@ -5,10 +5,11 @@ use nalgebra::{Cholesky, DMatrix};
 use super::Beside;
 use crate::dyads::{information, squares};
 use crate::error::SpatialError;
-use crate::normal::Normal;
 use crate::normal::Deviations;
+use crate::normal::Normal;
 use crate::parallel::over_few_lines;
 use crate::problem::{Problem, Unknowns};
+use crate::together::LINES_MAX;
 
 /// Lines are left out where the substructures' noise moves the functions of the assembly by more than this part of them,
 /// r.m.s.: there they do not follow linearly.
@@ -26,8 +27,7 @@ impl Beside<'_> {
                     let own = [model.of_hidden_alone(n)];
                     let root = Cholesky::new(information(&self.grids.own[n][line], &own))
                         .ok_or(SpatialError::NotDetermined)?;
-                    let sums =
-                        information(&self.grids.assembly, &[model.of_hidden(n, &computed)]);
+                    let sums = information(&self.grids.assembly, &[model.of_hidden(n, &computed)]);
                     // Σ w var = tr(Λ Uᴴ W U)
                     moved += root.solve(&sums).trace().re;
                 }
@@ -92,7 +92,10 @@ impl Problem {
         noise: [f64; 2],
     ) -> Result<(Normal, usize), SpatialError> {
         let kept = Beside::of(self, level, noise, truth)?.kept(truth)?;
-        let own = self.with_lines(&kept);
+        let mut own = self.with_lines(&kept);
+        if self.error_count() > 0 {
+            own = own.thinned(LINES_MAX);
+        }
         let normal = Beside::of(&own, level, noise, truth)?.normal_as_measured(truth)?;
         Ok((normal, kept.len()))
     }

@@ -12,6 +12,8 @@ mod model;
 mod rows;
 mod search;
 mod sums;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_complex::Complex64;
@@ -38,7 +40,7 @@ const FAINT: f64 = 1e-4;
 
 /// Steps of h at most, and the squares below which one was the last.
 const STEPS_MAX: usize = 8;
-const SETTLED: f64 = 1e-7;
+const SETTLED: f64 = 1e-9;
 
 /// Parts of a step of h that are tried: near a resonance the functions are not linear in h, and full steps would not end.
 const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
@@ -83,7 +85,9 @@ impl<'p> Beside<'p> {
             for functions in &side.lines {
                 // weights by what is measured would favour what noise has made small
                 let first = weights(functions, noise[n]);
-                let smooth = rows.reduction.expanded(&reduced_by(&own, &first, functions)?);
+                let smooth = rows
+                    .reduction
+                    .expanded(&reduced_by(&own, &first, functions)?);
                 let weights = match side.points() {
                     Some(_) => self::weights(&smooth, noise[n]),
                     None => first,
@@ -140,6 +144,17 @@ impl<'p> Beside<'p> {
             lines.map(of).sum::<Result<f64, _>>()
         })?;
         Ok(squares_of_errors(self.problem, unknowns) + parts.iter().sum::<f64>())
+    }
+
+    /// The substructures as they were found at these unknowns, with an exact set-up.
+    pub(crate) fn found(&self, unknowns: &Unknowns) -> Result<Problem, SpatialError> {
+        let model = self.model(unknowns)?;
+        let mut own = self.problem.displaced(unknowns)?;
+        for (n, side) in own.sides.iter_mut().enumerate() {
+            let expanded = |hidden: &Hidden| model.rows[n].reduction.expanded(&hidden[n]);
+            side.lines = self.hidden.iter().map(expanded).collect();
+        }
+        Ok(own)
     }
 
     fn model(&self, unknowns: &Unknowns) -> Result<Model<'_>, SpatialError> {
@@ -291,11 +306,7 @@ impl<'p> Beside<'p> {
     }
 
     /// The normal equations at these unknowns and this h.
-    fn normal_at(
-        &self,
-        unknowns: &Unknowns,
-        hidden: &[Hidden],
-    ) -> Result<Normal, SpatialError> {
+    fn normal_at(&self, unknowns: &Unknowns, hidden: &[Hidden]) -> Result<Normal, SpatialError> {
         let model = self.model(unknowns)?;
         let [a, b] = self.hidden_counts();
         let of_h = a + b;
@@ -440,13 +451,12 @@ fn eliminated(
     let mut cross = patterns.columns(&own(0, of_h, of_h, rest));
     let mut pull = all.slopes.rows(0, of_h).into_owned();
     let lower = root.l_dirty();
-    let is_solved = lower.solve_lower_triangular_mut(&mut cross)
-        && lower.solve_lower_triangular_mut(&mut pull);
+    let is_solved =
+        lower.solve_lower_triangular_mut(&mut cross) && lower.solve_lower_triangular_mut(&mut pull);
     if !is_solved {
         return Err(SpatialError::NotDetermined);
     }
     let products = patterns.products(&own(of_h, of_h, rest, rest)) - cross.ad_mul(&cross);
-    let slopes =
-        patterns.slopes(&all.slopes.rows(of_h, rest).into_owned()) - cross.ad_mul(&pull);
+    let slopes = patterns.slopes(&all.slopes.rows(of_h, rest).into_owned()) - cross.ad_mul(&pull);
     Ok((products, slopes))
 }

@@ -104,10 +104,7 @@ impl<'p> Model<'p> {
 
     pub(super) fn line(&self, line: usize, hidden: &Hidden) -> Result<Computed, SpatialError> {
         let found = self.assembled.line_of(line, hidden.each_ref())?;
-        let (rows, columns) = (
-            found.by_joint_loads.nrows(),
-            found.joint_motions.ncols(),
-        );
+        let (rows, columns) = (found.by_joint_loads.nrows(), found.joint_motions.ncols());
         let whole = DMatrix::from_column_slice(rows, columns, &found.functions);
         let [responses, references] = &self.all;
         let own = |n: usize| self.rows[n].reduction.expanded(&hidden[n]);
@@ -206,12 +203,10 @@ impl<'p> Model<'p> {
     ) -> [Group; 2] {
         let [channels, impacts] = self.rows[side].near();
         let one = |is: bool| Complex64::from(f64::from(u8::from(is)));
-        let of_channels = DMatrix::from_fn(by_loads.nrows(), channels, |i, j| {
-            one(i == first_row + j)
-        });
-        let of_impacts = DMatrix::from_fn(impacts, motions.ncols(), |i, j| {
-            one(j == first_column + i)
-        });
+        let of_channels =
+            DMatrix::from_fn(by_loads.nrows(), channels, |i, j| one(i == first_row + j));
+        let of_impacts =
+            DMatrix::from_fn(impacts, motions.ncols(), |i, j| one(j == first_column + i));
         [
             Group {
                 left: of_channels,

@@ -55,7 +55,6 @@ pub(crate) fn searched_beside(
         let Ok(fit) = let_down(&mut squares, start, residual) else {
             continue;
         };
-        if std::env::var("DBG").is_ok() { eprintln!("start {residual:.3e} -> {:.4} {} errors {:.3}", fit.cost / numbers, fit.has_converged, squares_of_errors(problem,&fit.unknowns)/errors.max(1.0)); }
         let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
         agreeing = match fit.cost {
             own if own > lowest * (1.0 + AS_LOW) => agreeing,
@@ -75,11 +74,7 @@ pub(crate) fn searched_beside(
 }
 
 /// From one start, whose squares are known: with noise as large as they are at first, which is let down to what it is.
-fn let_down(
-    squares: &mut Beside<'_>,
-    start: Unknowns,
-    residual: f64,
-) -> Result<Fit, SpatialError> {
+fn let_down(squares: &mut Beside<'_>, start: Unknowns, residual: f64) -> Result<Fit, SpatialError> {
     let numbers = squares.numbers() as f64;
     squares.begin();
     let mut unknowns = start;
@@ -91,7 +86,6 @@ fn let_down(
         squares.raise(factor);
         let fit = Fit::by(squares, unknowns, Effort::Coarse)?;
         unknowns = fit.unknowns;
-        if std::env::var("DBG").is_ok() { eprintln!("   factor {factor:.3e} cost {:.4}", fit.cost / numbers); }
         if step >= PATIENCE && fit.cost > LAGGING * numbers {
             squares.raise(1.0);
             return Ok(Fit {

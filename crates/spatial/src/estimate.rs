@@ -151,6 +151,8 @@ impl SpatialStudy {
         // joint and set-up at more lines
         let kept = Beside::of(problem, &level, noise, &unknowns)?.kept(&unknowns)?;
         let estimated = problem.with_lines(&kept).thinned(LINES_MAX);
+        let explained = Beside::of(&estimated, &level, noise, &unknowns)?.explained(&unknowns)?;
+        let estimated = estimated.with_lines(&explained);
         let mut squares = Beside::of(&estimated, &level, noise, &unknowns)?;
         let best = Fit::by(&mut squares, unknowns, Effort::Full)?;
         has_converged &= best.has_converged;
@@ -161,6 +163,9 @@ impl SpatialStudy {
         let mut joint = joint_of(problem, &unknowns);
         let kept = Beside::of(&exact, &level, noise, &joint)?.kept(&joint)?;
         let exact = exact.with_lines(&kept);
+        let explained = Beside::of(&exact, &level, noise, &joint)?.explained(&joint)?;
+        let kept: Vec<usize> = explained.iter().map(|&line| kept[line]).collect();
+        let exact = exact.with_lines(&explained);
         for lines in [exact.thinned(FEW), exact.clone()] {
             let mut squares = Beside::of(&lines, &level, noise, &joint)?;
             let found = Fit::by(&mut squares, joint, Effort::Near)?;

@@ -39,11 +39,15 @@ const LEAST: f64 = 1e-4;
 const FAINT: f64 = 1e-4;
 
 /// Steps of h at most, and the squares below which one was the last.
-const STEPS_MAX: usize = 8;
+const STEPS_MAX: usize = 15;
 const SETTLED: f64 = 1e-9;
 
-/// Parts of a step of h that are tried: near a resonance the functions are not linear in h, and full steps would not end.
-const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+/// Damping of a step of h: near a resonance the functions are not linear in it.
+const DAMPING_MIN: f64 = 1e-3;
+const DAMPING_MAX: f64 = 1e6;
+
+/// Squares of a line over its numbers that no noise explains.
+const LAGGING: f64 = 2.0;
 
 /// The squares of everything that was measured.
 pub(crate) struct Beside<'p> {
@@ -276,33 +280,65 @@ impl<'p> Beside<'p> {
         let mut hidden = from.clone();
         let mut computed = model.line(line, &hidden)?;
         let mut lowest = self.squares(line, &computed);
+        let mut damping = 0.0;
         for _ in 0..STEPS_MAX {
             let Gathered {
                 products, slopes, ..
             } = self.of_hidden(model, line, &computed);
-            let root = Cholesky::new(products).ok_or(SpatialError::NotDetermined)?;
-            let step = root.solve(&slopes);
-            if slopes.dotc(&step).re < SETTLED * (1.0 + lowest) {
-                break;
-            }
             let mut moved = None;
-            for part in PARTS {
-                let trial = advanced(&hidden, &step, part);
-                let Ok(own) = model.line(line, &trial) else {
-                    continue;
-                };
-                let found = self.squares(line, &own);
-                if found < lowest {
-                    moved = Some((trial, own, found));
+            let mut gain = 0.0;
+            while moved.is_none() && damping < DAMPING_MAX {
+                let mut damped = products.clone();
+                for n in 0..damped.nrows() {
+                    damped[(n, n)] *= 1.0 + damping;
+                }
+                let root = Cholesky::new(damped).ok_or(SpatialError::NotDetermined)?;
+                let step = root.solve(&slopes);
+                gain = slopes.dotc(&step).re;
+                let trial = advanced(&hidden, &step, 1.0);
+                moved = model.line(line, &trial).ok().and_then(|own| {
+                    let found = self.squares(line, &own);
+                    (found < lowest).then_some((trial, own, found))
+                });
+                if gain < SETTLED * (1.0 + lowest) {
                     break;
                 }
+                damping = match moved {
+                    None => (10.0 * damping).max(DAMPING_MIN),
+                    Some(_) if damping > DAMPING_MIN => 0.1 * damping,
+                    Some(_) => 0.0,
+                };
             }
             let Some((trial, own, found)) = moved else {
                 break;
             };
             (hidden, computed, lowest) = (trial, own, found);
+            if gain < SETTLED * (1.0 + lowest) {
+                break;
+            }
         }
         Ok((hidden, 2.0 * lowest))
+    }
+
+    /// The lines that joint and set-up explain, of those that are here: at the others h cannot be found, as near a resonance that
+    /// moves by more than its width. All, where so many are not explained that it is not their fault.
+    pub(crate) fn explained(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
+        let model = Model::of(self.problem, &self.nodes, unknowns)?;
+        let lines = self.measured.len();
+        let numbers = (self.numbers() / lines.max(1)) as f64;
+        let parts = over_few_lines(lines, |lines| {
+            let of = |line: usize| {
+                let (_, squares) = self.followed(&model, line, &self.measured[line])?;
+                Ok::<_, SpatialError>(squares < LAGGING * numbers)
+            };
+            lines.map(of).collect::<Result<Vec<_>, _>>()
+        })?;
+        let is_explained = parts.concat();
+        let explained: Vec<usize> = (0..lines).filter(|&line| is_explained[line]).collect();
+        Ok(match 10 * explained.len() >= 9 * lines {
+            true => explained,
+            false => (0..lines).collect(),
+        })
     }
 
     /// The normal equations at these unknowns and this h.

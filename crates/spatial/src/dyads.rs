@@ -27,7 +27,7 @@ pub(crate) struct Group {
 
 impl Group {
     /// Unknowns, θ_pq at p·right + q.
-    fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.left.ncols() * self.right.nrows()
     }
 }
@@ -107,6 +107,9 @@ pub(crate) fn information(grid: &Grid, groups: &[Group]) -> DMatrix<Complex64> {
             let (re, im) = (&y.re[own.clone()], &y.im[own]);
             for q in 0..right {
                 let factor = Complex64::new(weight * re[q], -weight * im[q]);
+                if factor == Complex64::ZERO {
+                    continue;
+                }
                 let tail = q * right + q..(q + 1) * right;
                 add(
                     (&mut partial.re[tail.clone()], &mut partial.im[tail]),
@@ -134,13 +137,20 @@ pub(crate) fn information(grid: &Grid, groups: &[Group]) -> DMatrix<Complex64> {
             let size = height * width;
             for p in 0..one.left.ncols() {
                 let conjugate = one.left[(o, p)].conj();
+                if conjugate == Complex64::ZERO {
+                    continue;
+                }
                 // of a group with itself the other half follows
                 let least = if s == t { p } else { 0 };
                 for r in least..other.left.ncols() {
+                    let factor = conjugate * other.left[(o, r)];
+                    if factor == Complex64::ZERO {
+                        continue;
+                    }
                     let own = (p * other.left.ncols() + r) * size;
                     add(
                         (&mut sum.re[own..own + size], &mut sum.im[own..own + size]),
-                        conjugate * other.left[(o, r)],
+                        factor,
                         (&block.re, &block.im),
                     );
                 }

@@ -3,17 +3,16 @@
 use nalgebra::DMatrix;
 
 use crate::error::SpatialError;
-use crate::fit::{Fit, covariance};
+use crate::fit::{Effort, Fit, Squares, covariance};
 use crate::fits::strongest;
+use crate::hidden::{Beside, searched_beside};
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::level::{of_residuals, relative_rms, root_mean_square};
-use crate::marginal::Refined;
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::search::{SEARCHED, searched};
 use crate::spread::Spread;
-use crate::starts::starts;
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
 
@@ -23,12 +22,34 @@ const ROUNDS: usize = 5;
 /// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
 const NOISE: f64 = 0.01;
 
+/// Lines of the joint before all take part, where the substructures have noise.
+const FEW: usize = 200;
+
+/// The joint that fits best, beside what else is unknown.
+struct Refined {
+    /// Of the joint alone.
+    unknowns: Unknowns,
+    /// Covariance of these.
+    covariance: DMatrix<f64>,
+    /// χ², and of how many numbers.
+    squares: f64,
+    numbers: usize,
+    /// Lines that took part.
+    kept: Vec<usize>,
+    /// R.m.s. over these lines of what the substructures' noise moves, in parts of the functions.
+    moved: f64,
+    has_converged: bool,
+}
+
 /// The search's end.
 struct Found {
     /// Joint and errors of the set-up, at the lines of `estimated`.
     best: Fit,
     estimated: Problem,
-    level: Deviations,
+    /// What these say of both.
+    information: DMatrix<f64>,
+    /// The substructures as they were found, and an exact set-up, at all lines.
+    shown: Problem,
     /// The joint alone, with the errors as they were found, at all lines.
     joint: Refined,
     /// Starts that were tried, and that agree.
@@ -102,14 +123,19 @@ impl SpatialStudy {
             joint: Refined {
                 covariance: covariance(&normal.information).ok_or(SpatialError::NotDetermined)?,
                 squares: cost(problem, &at, &level)?,
+                numbers: problem.numbers(),
                 kept: (0..problem.frequency_hz.len()).collect(),
                 moved: 0.0,
                 has_converged: best.has_converged,
                 unknowns,
             },
+            information: match errors {
+                0 => DMatrix::zeros(0, 0),
+                _ => Normal::of(&estimated, &best.unknowns, &level)?.information,
+            },
             best,
             estimated,
-            level,
+            shown: exact,
             starts,
         })
     }
@@ -118,46 +144,59 @@ impl SpatialStudy {
     fn beside_noise(&self, rms: &Deviations, part: f64) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let level = parts(rms, part);
-        let [a, b] = self.noise;
-        // as if their noise moved the assembly's functions as much
-        let all = parts(rms, (part * part + a * a + b * b).sqrt());
-        if problem.error_count() == 0 {
-            let smoothed = problem.smoothed()?;
-            let first = starts(&smoothed.thinned(SEARCHED), &level)?.next();
-            let first = first.ok_or(SpatialError::NoStart)?;
-            // the lines at which noise moves least, as far as the joint is known
-            let mut few = smoothed.with_lines(&problem.steadiest(&first, &level, self.noise)?);
-            let (mut best, starts) = searched(&few, &all, true)?;
-            for _ in 0..ROUNDS {
-                let lines = problem.steadiest(&best.unknowns, &level, self.noise)?;
-                few = smoothed.with_lines(&lines);
-                best = best.on(&few, &all)?;
-            }
-            let joint = problem.refined(best.unknowns.clone(), &level, self.noise)?;
-            return Ok(Found {
-                best,
-                estimated: few,
-                level: all,
-                joint,
-                starts,
-            });
+        let noise = self.noise;
+        let (best, starts) = searched_beside(problem, &level, noise)?;
+        let mut has_converged = best.has_converged;
+        let mut unknowns = best.unknowns;
+        // joint and set-up at more lines
+        let kept = Beside::of(problem, &level, noise, &unknowns)?.kept(&unknowns)?;
+        let estimated = problem.with_lines(&kept).thinned(LINES_MAX);
+        let explained = Beside::of(&estimated, &level, noise, &unknowns)?.explained(&unknowns)?;
+        let estimated = estimated.with_lines(&explained);
+        let mut squares = Beside::of(&estimated, &level, noise, &unknowns)?;
+        let best = Fit::by(&mut squares, unknowns, Effort::Full)?;
+        has_converged &= best.has_converged;
+        let information = squares.normal(&best.unknowns)?.information;
+        unknowns = best.unknowns.clone();
+        // and the joint at all, beside the set-up that was found
+        let exact = problem.displaced(&unknowns)?;
+        let mut joint = joint_of(problem, &unknowns);
+        let kept = Beside::of(&exact, &level, noise, &joint)?.kept(&joint)?;
+        let exact = exact.with_lines(&kept);
+        let explained = Beside::of(&exact, &level, noise, &joint)?.explained(&joint)?;
+        let kept: Vec<usize> = explained.iter().map(|&line| kept[line]).collect();
+        let exact = exact.with_lines(&explained);
+        for lines in [exact.thinned(FEW), exact.clone()] {
+            let mut squares = Beside::of(&lines, &level, noise, &joint)?;
+            let found = Fit::by(&mut squares, joint, Effort::Near)?;
+            has_converged &= found.has_converged;
+            joint = found.unknowns;
         }
-        let (best, starts) = together(problem, &all, true)?;
-        let exact = problem.displaced(&best.unknowns)?;
-        let joint = exact.refined(joint_of(problem, &best.unknowns), &level, self.noise)?;
-        // the errors once more, at the lines that count and with the noise that was found there
-        let estimated = problem.with_lines(&joint.kept).thinned(LINES_MAX);
-        let level_there = parts(rms, part.hypot(joint.moved));
-        let start = with_joint(&best.unknowns, &joint.unknowns);
-        let best = Fit::from(&estimated, start, &level_there)?;
-        let exact = problem.displaced(&best.unknowns)?;
-        let mut joint = exact.refined(joint.unknowns, &level, self.noise)?;
-        joint.squares += squares_of_errors(problem, &best.unknowns);
+        let mut squares = Beside::of(&exact, &level, noise, &joint)?;
+        let moved = squares.moved(&joint)?;
+        let normal = squares.normal(&joint)?;
+        let mut shown = problem.displaced(&unknowns)?.smoothed()?;
+        let found = squares.found(&joint)?;
+        for (side, found) in shown.sides.iter_mut().zip(found.sides) {
+            for (&line, functions) in kept.iter().zip(found.lines) {
+                side.lines[line] = functions;
+            }
+        }
+        let moved: f64 = moved.iter().map(|moved| moved.powi(2)).sum();
         Ok(Found {
+            joint: Refined {
+                covariance: covariance(&normal.information).ok_or(SpatialError::NotDetermined)?,
+                squares: normal.cost + squares_of_errors(problem, &best.unknowns),
+                numbers: squares.numbers(),
+                moved: (moved / kept.len().max(1) as f64).sqrt(),
+                kept,
+                has_converged,
+                unknowns: joint,
+            },
             best,
             estimated,
-            level: level_there,
-            joint,
+            information,
+            shown,
             starts,
         })
     }
@@ -171,17 +210,13 @@ impl SpatialStudy {
         let Found {
             best,
             estimated,
-            level,
+            information,
+            shown,
             joint: alone,
             starts,
         } = found;
-        let information = match errors {
-            0 => DMatrix::zeros(0, 0),
-            _ => Normal::of(estimated, &best.unknowns, level)?.information,
-        };
-        let spread = Spread::of(estimated, &information, alone.covariance.clone())
+        let spread = Spread::of(estimated, information, alone.covariance.clone())
             .ok_or(SpatialError::NotDetermined)?;
-        let at = with_joint(&best.unknowns, &alone.unknowns);
         let Numbers {
             unknowns,
             matrices: [stiffness, damping],
@@ -203,8 +238,8 @@ impl SpatialStudy {
             }
         };
         let lines = alone.kept.len();
-        let compared = problem.with_lines(&alone.kept);
-        let freedom = (compared.numbers() - count) as f64;
+        let compared = shown.with_lines(&alone.kept);
+        let freedom = (alone.numbers - count) as f64;
         let reduced_chi_squared =
             matches!(self.level, Level::Relative(_)).then_some(alone.squares / freedom);
         let left_out = problem.frequency_hz.len() - lines;
@@ -217,7 +252,7 @@ impl SpatialStudy {
             deviations_by_noise: deviations(model, &spread.by_noise),
             covariances,
             correlation,
-            relative_rms: relative_rms(&compared, &at)?,
+            relative_rms: relative_rms(&compared, &alone.unknowns)?,
             functions: problem.observed.len(),
             lines,
             substructures: (self.noise != [0.0; 2]).then_some(Substructures {
@@ -225,7 +260,7 @@ impl SpatialStudy {
                 moves: alone.moved,
             }),
             frequency_hz: problem.frequency_hz.clone(),
-            fits: strongest(problem, &at, &alone.kept)?,
+            fits: strongest(shown, &alone.unknowns, &alone.kept)?,
             reduced_chi_squared,
             budget_used: (errors > 0)
                 .then(|| squares_of_errors(problem, &best.unknowns) / errors as f64),

@@ -14,6 +14,7 @@ const SETTLED: f64 = 1e-8;
 
 /// Likewise, of a search that another one goes on from, and its steps at most.
 const NEARLY_SETTLED: f64 = 1e-2;
+const NEAR: f64 = 1e-6;
 const FEW_STEPS: usize = 8;
 
 /// How far a search goes.
@@ -21,6 +22,8 @@ const FEW_STEPS: usize = 8;
 pub(crate) enum Effort {
     /// To where another one goes on from.
     Coarse,
+    /// To the bottom as far as it matters: a small part of the deviations.
+    Near,
     /// To the bottom.
     Full,
 }
@@ -33,6 +36,37 @@ pub(crate) struct Fit {
     pub(crate) unknowns: Unknowns,
     pub(crate) cost: f64,
     pub(crate) has_converged: bool,
+}
+
+/// What is to be as small as it can be.
+pub(crate) trait Squares {
+    fn problem(&self) -> &Problem;
+
+    /// Its normal equations at the start, or where a step has led to.
+    fn normal(&mut self, unknowns: &Unknowns) -> Result<Normal, SpatialError>;
+
+    /// Its value where a step would lead to.
+    fn cost(&mut self, unknowns: &Unknowns) -> Result<f64, SpatialError>;
+}
+
+/// That of functions of the assembly between substructures that are exact.
+struct Exact<'p> {
+    problem: &'p Problem,
+    deviations: &'p Deviations,
+}
+
+impl Squares for Exact<'_> {
+    fn problem(&self) -> &Problem {
+        self.problem
+    }
+
+    fn normal(&mut self, unknowns: &Unknowns) -> Result<Normal, SpatialError> {
+        Normal::of(self.problem, unknowns, self.deviations)
+    }
+
+    fn cost(&mut self, unknowns: &Unknowns) -> Result<f64, SpatialError> {
+        cost(self.problem, unknowns, self.deviations)
+    }
 }
 
 impl Fit {
@@ -63,20 +97,34 @@ impl Fit {
         deviations: &Deviations,
         effort: Effort,
     ) -> Result<Self, SpatialError> {
+        let mut exact = Exact {
+            problem,
+            deviations,
+        };
+        Self::by(&mut exact, start, effort)
+    }
+
+    /// Likewise, by any squares.
+    pub(crate) fn by(
+        squares: &mut impl Squares,
+        start: Unknowns,
+        effort: Effort,
+    ) -> Result<Self, SpatialError> {
         let (steps_max, settled) = match effort {
             Effort::Coarse => (FEW_STEPS, NEARLY_SETTLED),
+            Effort::Near => (STEPS_MAX, NEAR),
             Effort::Full => (STEPS_MAX, SETTLED),
         };
-        let mut normal = Normal::of(problem, &start, deviations)?;
+        let mut normal = squares.normal(&start)?;
         let mut unknowns = start;
-        let trust = Trust::of(problem);
+        let trust = Trust::of(squares.problem());
         let mut damping = trust.first();
         for _ in 0..steps_max {
             let mut moved = None;
             while damping < DAMPING_MAX {
-                if let Some(step) = trust.step(problem, &unknowns, &normal, damping) {
+                if let Some(step) = trust.step(squares.problem(), &unknowns, &normal, damping) {
                     let trial = Unknowns(&unknowns.0 + step);
-                    let found = cost(problem, &trial, deviations).unwrap_or(f64::INFINITY);
+                    let found = squares.cost(&trial).unwrap_or(f64::INFINITY);
                     if found <= normal.cost {
                         moved = Some((trial, found));
                         damping = (0.1 * damping).max(1e-12);
@@ -97,7 +145,7 @@ impl Fit {
                     has_converged: true,
                 });
             }
-            normal = Normal::of(problem, &unknowns, deviations)?;
+            normal = squares.normal(&unknowns)?;
         }
         // no step helps: at the bottom as far as rounding lets it be seen
         let has_converged = damping >= DAMPING_MAX;

@@ -10,17 +10,18 @@
 
 mod assembled;
 mod chain;
+mod compliant;
 mod consistency;
 mod dyads;
 mod error;
 mod estimate;
 mod fit;
 mod fits;
+mod hidden;
 mod identification;
 mod joint_file;
 mod level;
 mod links;
-mod marginal;
 mod misfits;
 mod normal;
 mod numbers;

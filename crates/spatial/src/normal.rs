@@ -60,6 +60,17 @@ fn priors(problem: &Problem, unknowns: &Unknowns) -> impl Iterator<Item = [f64; 
     errors.into_iter().zip(deviations).map(<[f64; 2]>::from)
 }
 
+/// The squares of the errors of the set-up join the others.
+pub(crate) fn add_priors(problem: &Problem, unknowns: &Unknowns, normal: &mut Normal) {
+    for (n, [error, deviation]) in priors(problem, unknowns).enumerate() {
+        let place = problem.joint_count() + n;
+        let weight = 1.0 / (deviation * deviation);
+        normal.information[(place, place)] += weight;
+        normal.descent[place] -= weight * error;
+        normal.cost += weight * error * error;
+    }
+}
+
 impl Normal {
     pub(crate) fn of(
         problem: &Problem,
@@ -76,13 +87,7 @@ impl Normal {
         let mut sums = parts.next().unwrap_or_default();
         parts.for_each(|part| sums.add(&part));
         let mut normal = patterns.normal(problem.count(), &sums);
-        for (n, [error, deviation]) in priors(problem, unknowns).enumerate() {
-            let place = problem.joint_count() + n;
-            let weight = 1.0 / (deviation * deviation);
-            normal.information[(place, place)] += weight;
-            normal.descent[place] -= weight * error;
-            normal.cost += weight * error * error;
-        }
+        add_priors(problem, unknowns, &mut normal);
         Ok(normal)
     }
 

@@ -6,15 +6,32 @@ use rayon::prelude::*;
 
 /// Lines of one piece of work.
 const LENGTH: usize = 16;
+const FEW: usize = 4;
 
 /// Work on pieces of consecutive lines; the results in their order.
 pub(crate) fn over_lines<T: Send, E: Send>(
     lines: usize,
     work: impl Fn(Range<usize>) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
+    in_pieces(lines, LENGTH, work)
+}
+
+/// Likewise, where every line takes long.
+pub(crate) fn over_few_lines<T: Send, E: Send>(
+    lines: usize,
+    work: impl Fn(Range<usize>) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    in_pieces(lines, FEW, work)
+}
+
+fn in_pieces<T: Send, E: Send>(
+    lines: usize,
+    length: usize,
+    work: impl Fn(Range<usize>) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
     let pieces: Vec<Range<usize>> = (0..lines)
-        .step_by(LENGTH)
-        .map(|first| first..lines.min(first + LENGTH))
+        .step_by(length)
+        .map(|first| first..lines.min(first + length))
         .collect();
     // all results first: which error is told must not depend on who is faster
     let results: Vec<Result<T, E>> = pieces.into_par_iter().map(&work).collect();

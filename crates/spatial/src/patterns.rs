@@ -36,6 +36,11 @@ pub(crate) struct Patterns {
 }
 
 impl Pattern {
+    /// From dyads and their weights, of which those that are zero need not stand there.
+    pub(crate) fn new(dyads: impl Iterator<Item = (usize, f64)>) -> Self {
+        Self(dyads.filter(|(_, weight)| *weight != 0.0).collect())
+    }
+
     /// What the unknown does to the function of a row and a column.
     pub(crate) fn of(&self, groups: &[Group], [row, column]: [usize; 2]) -> Complex64 {
         let mut sum = Complex64::default();
@@ -168,6 +173,19 @@ impl Patterns {
         }
     }
 
+    /// Of the joints that are sought, and these of the errors of the set-up.
+    pub(crate) fn beside(problem: &Problem, of_set_up: Vec<Pattern>) -> Self {
+        Self {
+            of_set_up,
+            ..Self::of(problem, None)
+        }
+    }
+
+    /// Those of the joints, then those of the set-up.
+    fn each(&self) -> impl Iterator<Item = &Pattern> {
+        self.of_joints.iter().chain(&self.of_set_up)
+    }
+
     /// All, with where they belong.
     pub(crate) fn all(&self) -> impl Iterator<Item = (Places, &Pattern)> {
         let places = self.places.iter().copied().map(Places::OfJoint);
@@ -213,35 +231,43 @@ impl Patterns {
         normal
     }
 
-    /// Eᵀ M E of sums over the 36 entries.
+    /// Eᵀ M E of sums over the dyads.
     pub(crate) fn products(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
         let half = self.columns(sums);
-        DMatrix::from_fn(self.of_joints.len(), self.of_joints.len(), |k, l| {
-            let own = self.of_joints[k].0.iter();
-            own.map(|(place, factor)| *factor * half[(*place, l)]).sum()
-        })
+        let mut products = DMatrix::zeros(half.ncols(), half.ncols());
+        for (l, column) in half.column_iter().enumerate() {
+            for (k, pattern) in self.each().enumerate() {
+                products[(k, l)] = pattern.of_sums(column.as_slice());
+            }
+        }
+        products
     }
 
     /// M E.
     pub(crate) fn columns(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        DMatrix::from_fn(sums.nrows(), self.of_joints.len(), |row, l| {
-            let own = self.of_joints[l].0.iter();
-            own.map(|(place, factor)| *factor * sums[(row, *place)])
-                .sum()
-        })
+        let count = self.of_joints.len() + self.of_set_up.len();
+        let mut columns = DMatrix::zeros(sums.nrows(), count);
+        for (mut column, pattern) in columns.column_iter_mut().zip(self.each()) {
+            for &(place, factor) in &pattern.0 {
+                column.axpy(Complex64::from(factor), &sums.column(place), Complex64::ONE);
+            }
+        }
+        columns
     }
 
     /// Eᵀ v.
     pub(crate) fn slopes(&self, sums: &DVector<Complex64>) -> DVector<Complex64> {
-        let own = self.of_joints.iter().map(|pattern| {
-            let terms = pattern.0.iter();
-            terms.map(|(place, factor)| *factor * sums[*place]).sum()
-        });
-        DVector::from_iterator(self.of_joints.len(), own)
+        let own = self.each().map(|pattern| pattern.of_sums(sums.as_slice()));
+        DVector::from_iterator(self.of_joints.len() + self.of_set_up.len(), own)
     }
 }
 
 impl Pattern {
+    fn of_sums(&self, sums: &[Complex64]) -> Complex64 {
+        let terms = self.0.iter();
+        terms.map(|&(place, factor)| factor * sums[place]).sum()
+    }
+
     fn sum(&self, sums: &DVector<f64>) -> f64 {
         let terms = self.0.iter();
         terms.map(|&(place, factor)| factor * sums[place]).sum()
@@ -263,7 +289,8 @@ fn combined(rows: &[Pattern], sums: &DMatrix<f64>, columns: &[Pattern]) -> DMatr
 }
 
 impl Normal {
-    /// The information and descent of a line, by Jᴴ Σ⁻¹ J and Jᴴ Σ⁻¹ e of −J_k = a ∂K/∂k b: C's derivatives are jω times K's.
+    /// The information and descent of a line, by Jᴴ Σ⁻¹ J and Jᴴ Σ⁻¹ e of −J_k = a ∂K/∂k b and of the errors of the set-up: C's
+    /// derivatives are jω times K's.
     pub(crate) fn add_line(
         &mut self,
         omega: f64,
@@ -272,6 +299,7 @@ impl Normal {
         slopes: &DVector<Complex64>,
     ) {
         let places = &patterns.places;
+        let joints = places.len();
         for (k, &[stiffness, damping]) in places.iter().enumerate() {
             for (l, &[other, of_other]) in places.iter().enumerate() {
                 let product = 2.0 * products[(k, l)];
@@ -283,6 +311,22 @@ impl Normal {
             let slope = 2.0 * slopes[k];
             self.descent[stiffness] -= slope.re;
             self.descent[damping] -= omega * slope.im;
+            for n in 0..patterns.of_set_up.len() {
+                let product = -2.0 * products[(k, joints + n)];
+                let place = patterns.first_error + n;
+                for (own, value) in [(stiffness, product.re), (damping, omega * product.im)] {
+                    self.information[(own, place)] += value;
+                    self.information[(place, own)] += value;
+                }
+            }
+        }
+        let first = patterns.first_error;
+        for n in 0..patterns.of_set_up.len() {
+            for m in 0..patterns.of_set_up.len() {
+                let product = products[(joints + n, joints + m)].re;
+                self.information[(first + n, first + m)] += 2.0 * product;
+            }
+            self.descent[first + n] += 2.0 * slopes[joints + n].re;
         }
     }
 }

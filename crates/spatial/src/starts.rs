@@ -30,7 +30,7 @@ const BESIDE: [f64; 5] = [1.0, 1.5, 0.7, 0.5, 0.3];
 const ROUNDS: usize = 20;
 
 /// Loss factor of a start.
-const LOSS: f64 = 0.02;
+pub(crate) const LOSS: f64 = 0.02;
 
 /// Singular values below this part of the largest are none.
 const RANK: f64 = 1e-8;
@@ -59,6 +59,9 @@ pub(crate) fn starts(
         let lines = looked_at.len();
         let line_by_line = loads.line_by_line(&problem);
         let nothing = Some(vec![[Matrix6::zeros(); 2]; problem.links.sought().len()]);
+        if let Some(stiff) = loads.compliant(&problem) {
+            ways.push(Way::At(stiff));
+        }
         for from in [&line_by_line, &nothing].into_iter().flatten() {
             ways.push(Way::Balanced(from.clone(), (0..lines).collect()));
         }
@@ -115,28 +118,28 @@ fn of_matrices(problem: &Problem, matrices: &[[Matrix6<f64>; 2]]) -> Option<Unkn
 }
 
 /// Loads in the joints that are sought, and their motions, as the functions have them.
-struct Loads {
+pub(crate) struct Loads {
     /// What the functions follow from.
-    lines: Vec<OfLine>,
+    pub(crate) lines: Vec<OfLine>,
     /// How much each function counts; rows × columns, or the other way round.
-    weights: DMatrix<f64>,
+    pub(crate) weights: DMatrix<f64>,
     /// Columns whose rows reach all motions.
     usable: Vec<usize>,
     /// What scales each motion: rotations as lengths.
-    scales: Vec<f64>,
+    pub(crate) scales: Vec<f64>,
     patterns: Patterns,
 }
 
 /// At one line: Y − Y_C = (Y Sᵀ) f, b = S Y − H f.
-struct OfLine {
+pub(crate) struct OfLine {
     /// Y Sᵀ: rows × motions.
-    by_loads: DMatrix<Complex64>,
+    pub(crate) by_loads: DMatrix<Complex64>,
     /// H
-    seen: DMatrix<Complex64>,
+    pub(crate) seen: DMatrix<Complex64>,
     /// f: motions × columns.
-    loads: DMatrix<Complex64>,
+    pub(crate) loads: DMatrix<Complex64>,
     /// b: motions × columns.
-    motions: DMatrix<Complex64>,
+    pub(crate) motions: DMatrix<Complex64>,
 }
 
 impl Loads {

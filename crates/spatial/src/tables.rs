@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use bolted_joint_study::{FrequencyTable, Method, Paths, one_or_more_tables};
+use bolted_joint_study::{FrequencyTable, Method, OneOrMore, Paths, one_or_more_tables};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -50,6 +50,8 @@ pub(crate) struct PartTable {
     pub(crate) frf: Option<Paths>,
     /// Modes.
     pub(crate) modal: Option<PathBuf>,
+    /// Computed.
+    pub(crate) beam: Option<BeamTable>,
     /// Node whose six motions are those of the interface.
     pub(crate) interface: Option<u32>,
     #[serde(default)]
@@ -63,6 +65,47 @@ pub(crate) struct PartTable {
     pub(crate) references: Vec<String>,
     /// The interface to the next part of a chain.
     pub(crate) far: Option<InterfaceTable>,
+}
+
+/// Beams through a line of points.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BeamTable {
+    pub(crate) points: Vec<BeamPointTable>,
+    /// m.
+    pub(crate) width: f64,
+    /// m.
+    pub(crate) height: f64,
+    /// Direction of the height.
+    pub(crate) height_along: [f64; 3],
+    /// Pa.
+    pub(crate) youngs_modulus: f64,
+    /// kg/m³.
+    pub(crate) density: f64,
+    pub(crate) poissons_ratio: Option<f64>,
+    #[serde(default)]
+    pub(crate) theory: TheoryName,
+    /// Nodes that do not move.
+    #[serde(default)]
+    pub(crate) held: Vec<u32>,
+    pub(crate) damping_ratio: OneOrMore,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BeamPointTable {
+    pub(crate) node: u32,
+    /// m.
+    pub(crate) position: [f64; 3],
+}
+
+/// Which theory of bending a computed beam follows.
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum TheoryName {
+    #[default]
+    Timoshenko,
+    EulerBernoulli,
 }
 
 /// An interface of a part that has two.

@@ -46,6 +46,7 @@
 //!   [`Diagnosis`].
 #![forbid(unsafe_code)]
 
+mod beyond;
 mod conditioning;
 mod consistency;
 mod covariance;

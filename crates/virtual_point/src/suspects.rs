@@ -69,6 +69,11 @@ impl Spread {
         spread
     }
 
+    /// Lines that are not zero.
+    pub(crate) fn lines(&self) -> f64 {
+        self.lines
+    }
+
     /// Σ tr(Eᵀ W E) of E = (I − R T) S over the rows that a projection keeps, as a mean over the lines.
     fn misfit(&self, projection: &Projection, kept: &[usize]) -> f64 {
         let own = self.matrix.select_rows(kept).select_columns(kept);
@@ -91,18 +96,9 @@ impl VirtualPoint {
         role: Role,
         lines: &[DMatrix<Complex64>],
     ) -> Result<Option<Suspects>, VirtualPointError> {
-        self.all_checked(lines)?;
-        let what = "lines";
-        if lines.is_empty() {
-            return Err(VirtualPointError::Nothing { what });
-        }
         let count = self.count(role);
         let projection = self.projection(role);
-        let seen = lines.iter().map(|line| match role {
-            Role::Channel => line.clone(),
-            Role::Impact => line.transpose(),
-        });
-        let spread = Spread::of(projection.weights(), seen);
+        let spread = self.spread(role, lines)?;
         if count < 8 || spread.lines == 0.0 {
             return Ok(None);
         }
@@ -135,6 +131,24 @@ impl VirtualPoint {
             ranked,
             bad,
         }))
+    }
+
+    /// Of the channels' functions, or of the impacts'.
+    pub(crate) fn spread(
+        &self,
+        role: Role,
+        lines: &[DMatrix<Complex64>],
+    ) -> Result<Spread, VirtualPointError> {
+        self.all_checked(lines)?;
+        let what = "lines";
+        if lines.is_empty() {
+            return Err(VirtualPointError::Nothing { what });
+        }
+        let seen = lines.iter().map(|line| match role {
+            Role::Channel => line.clone(),
+            Role::Impact => line.transpose(),
+        });
+        Ok(Spread::of(self.projection(role).weights(), seen))
     }
 
     /// What can be left out, with its rows.

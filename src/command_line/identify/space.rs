@@ -38,6 +38,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;
     let found = study.identify()?;
+    warn(not_determined(&found).as_slice());
     let file = found.joint_file(&study);
     let text = file.to_json()?;
     let mut outputs = Outputs::new();
@@ -66,6 +67,20 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
         print(&(summary(&study, &found) + &of_consistency(&consistency) + &outputs.written()))?;
     }
     CliError::unless_usable(&arguments.output, &found.reasons_against)
+}
+
+/// Of a result that is to be relied on: numbers that it does not tell.
+fn not_determined(found: &SpatialIdentification) -> Option<String> {
+    let unknown = found.unknowns.iter().filter(|one| !one.is_determined);
+    let names: Vec<&str> = unknown.map(|one| one.name.as_str()).collect();
+    let is_told = found.reasons_against.is_empty() && !names.is_empty();
+    is_told.then(|| {
+        format!(
+            "the functions do not determine {}: the intervals are as wide as the numbers; plan the test (respond --plan), or take a \
+             model with fewer numbers",
+            names.join(", ")
+        )
+    })
 }
 
 fn as_json(

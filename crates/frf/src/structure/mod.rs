@@ -7,6 +7,7 @@ mod matrices;
 mod modal;
 mod rotation;
 mod section;
+mod space_beam;
 mod spatial;
 
 pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, ModalBeam, Motion, Theory};
@@ -16,4 +17,5 @@ pub use matrices::NamedMatrices;
 pub use modal::{ModalModel, Mode};
 pub use rotation::{Difference, FiniteDifference, Order};
 pub use section::Section;
+pub use space_beam::{SpaceBeam, SpacePoint};
 pub use spatial::{Modes, SpatialModel};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::ModalModel;
+use bolted_joint_frf::structure::{ModalModel, SpaceBeam, SpacePoint, Theory};
 use bolted_joint_joint::JointFile;
 use bolted_joint_space::Dof as Motion;
 use bolted_joint_study::{FrequencyTable, LineChoice, StudyError};
@@ -16,7 +16,8 @@ use super::response::Scatter;
 use crate::links::{Link, Numbers};
 use crate::study::Reader;
 use crate::tables::{
-    CandidatesTable, ExpectedTable, ImpactTable, JointTable, MatricesTable, PartTable, SensorTable,
+    BeamPointTable, BeamTable, CandidatesTable, ExpectedTable, ImpactTable, JointTable,
+    MatricesTable, PartTable, SensorTable, TheoryName,
 };
 
 /// Lines of a study where no file of functions has any, at most.
@@ -29,6 +30,25 @@ const ANY_LENGTH_M: f64 = 1.0;
 pub(super) struct Known {
     pub(super) matrices: [Matrix6<f64>; 2],
     pub(super) scatter: Option<Scatter>,
+}
+
+fn computed(table: &BeamTable) -> SpaceBeam {
+    let point = |own: &BeamPointTable| SpacePoint {
+        node: own.node,
+        position_m: own.position,
+    };
+    SpaceBeam {
+        points: table.points.iter().map(point).collect(),
+        width_m: table.width,
+        height_m: table.height,
+        height_along: table.height_along,
+        youngs_modulus_pa: table.youngs_modulus,
+        density_kg_per_m3: table.density,
+        poissons_ratio: (table.poissons_ratio).unwrap_or(Theory::USUAL_POISSONS_RATIO),
+        has_shear: matches!(table.theory, TheoryName::Timoshenko),
+        held: table.held.clone(),
+        damping_ratio: table.damping_ratio.list(),
+    }
 }
 
 impl Reader<'_> {
@@ -72,23 +92,29 @@ impl Reader<'_> {
         table: &PartTable,
         lines: &LineChoice,
     ) -> Result<Source, StudyError> {
-        match (&table.frf, &table.modal) {
-            (Some(path), None) => {
+        match (&table.frf, &table.modal, &table.beam) {
+            (Some(path), None, None) => {
                 let set = self.functions(&format!("{name}.frf"), path, lines)?;
                 Ok(Source::Functions(set))
             }
-            (None, Some(path)) => {
+            (None, Some(path), None) => {
                 let model = ModalModel::read(&self.study.resolved(path));
                 Ok(Source::Modes(model.map_err(StudyError::of_file)?))
             }
-            (frf, _) => self.study.refuse(
+            (None, None, Some(beam)) => {
+                let model = computed(beam).modal();
+                let refused = |source| StudyError::model(self.study.path(), Some(name), source);
+                Ok(Source::Modes(model.map_err(refused)?))
+            }
+            (None, None, None) => self.study.refuse(
                 name,
-                if frf.is_some() {
-                    "frf and modal"
-                } else {
-                    "neither frf nor modal"
-                },
-                "one of them: a file of functions, or one of modes",
+                "none of frf, modal and beam",
+                "one of them: a file of functions, one of modes, or a beam to be computed",
+            ),
+            _ => self.study.refuse(
+                name,
+                "several of frf, modal and beam",
+                "one of them: a file of functions, one of modes, or a beam to be computed",
             ),
         }
     }

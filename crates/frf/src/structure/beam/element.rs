@@ -7,7 +7,7 @@
 use super::{Beam, Motion};
 
 /// Of the DOFs w₁, θ₁, w₂, θ₂; θ is the rotation of the cross-section.
-pub(super) struct Element {
+pub(in crate::structure) struct Element {
     l: f64,
     /// Φ = 12EI/(κGA l²)
     shear: f64,
@@ -22,7 +22,7 @@ pub(super) struct Element {
 type Matrix = [[f64; 4]; 4];
 
 impl Element {
-    pub(super) fn new(beam: &Beam, length_m: f64) -> Self {
+    pub(in crate::structure) fn new(beam: &Beam, length_m: f64) -> Self {
         let mass_per_length = beam.density_kg_per_m3 * beam.width_m * beam.height_m;
         // I/A = h²/12
         let gyration_m2 = beam.height_m * beam.height_m / 12.0;
@@ -36,7 +36,7 @@ impl Element {
     }
 
     /// [k_e] = EI/((1 + Φ) l³) [12 6l −12 6l; …]   (Tol 4.4 and Kavi 4.10 for Φ = 0)
-    pub(super) fn stiffness(&self) -> Matrix {
+    pub(in crate::structure) fn stiffness(&self) -> Matrix {
         let (l, phi) = (self.l, self.shear);
         let k = self.bending / l.powi(3) / (1.0 + phi);
         let near = (4.0 + phi) * l * l;
@@ -51,7 +51,7 @@ impl Element {
     }
 
     /// ∫ρA w² dx + ∫ρI θ² dx over the static shapes   (Tol 4.3 and Kavi 4.11 for Φ = 0 and without the second)
-    pub(super) fn mass(&self) -> Matrix {
+    pub(in crate::structure) fn mass(&self) -> Matrix {
         let (l, phi) = (self.l, self.shear);
         let square = phi * phi;
         let m = self.mass_per_length * l / 420.0 / (1.0 + phi).powi(2);

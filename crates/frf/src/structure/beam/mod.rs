@@ -12,6 +12,7 @@ mod modal;
 mod theory;
 
 use super::StructureError;
+pub(in crate::structure) use element::Element;
 use mesh::ELEMENTS;
 pub use modal::ModalBeam;
 pub(in crate::structure) use theory::SHEAR_COEFFICIENT;

@@ -105,6 +105,18 @@ impl ModalModel {
         Ok(model)
     }
 
+    /// Modes that were computed, without residuals.
+    pub(in crate::structure) fn computed(points: Vec<Dof>, modes: Vec<Mode>) -> Self {
+        Self {
+            path: PathBuf::from("beam"),
+            points,
+            modes,
+            residuals: Vec::new(),
+            understood: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
     /// The same modes without residuals.
     ///
     /// Residuals belong to single functions. Where those of one load alone are known, a rotation by finite differences

@@ -113,12 +113,22 @@ impl Test {
             0 => problem.clone(),
             _ => problem.thinned(LINES_MAX),
         };
-        let normal = Normal::of(&estimated, truth, level)?;
         let exact = problem.displaced(truth)?;
         let own = Unknowns(truth.0.rows(0, count).into_owned());
-        let (alone, lines) = match self.noise {
-            [0.0, 0.0] => (Normal::of(&exact, &own, level)?, problem.frequency_hz.len()),
-            noise => exact.told_beside_noise(&own, level, noise)?,
+        let (normal, alone, lines) = match self.noise {
+            [0.0, 0.0] => (
+                Normal::of(&estimated, truth, level)?,
+                Normal::of(&exact, &own, level)?,
+                problem.frequency_hz.len(),
+            ),
+            noise => {
+                let (alone, lines) = exact.told_beside_noise(&own, level, noise)?;
+                let (normal, _) = match problem.error_count() {
+                    0 => (Normal::zeros(count), 0),
+                    _ => problem.told_beside_noise(truth, level, noise)?,
+                };
+                (normal, alone, lines)
+            }
         };
         let by_noise =
             covariance(&with_before(&alone.information)).ok_or(SpatialError::NotDetermined)?;

@@ -1,0 +1,498 @@
+//! Noise of the substructures' functions: errors in variables.
+//!
+//! What the substructures truly are is unknown beside joint and set-up: at each line the reduced functions h of both (those of the
+//! virtual point, and of what is measured elsewhere), from which all functions follow ([`model`]). The squares of a line are those of
+//! the assembly's functions and of the substructures' own. At any joint and set-up h follows by Gauss–Newton steps of its own, and
+//! is eliminated: with U = ∂Y/∂h of all functions, W their inverse variances and M = Uᴴ W U,
+//!
+//! S⁻¹ = W − W U M⁻¹ Uᴴ W, F = 2 Re Σ Jᴴ S⁻¹ J, g = 2 Re Σ Jᴴ S⁻¹ e.
+
+mod choice;
+mod model;
+mod rows;
+mod search;
+mod sums;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use num_complex::Complex64;
+
+pub(crate) use self::search::searched_beside;
+
+use self::model::{Computed, Hidden, Model, between_nodes};
+use self::rows::Rows;
+use self::sums::{Compared, Gathered};
+use crate::dyads::{Grid, Group, descent, information, squares};
+use crate::error::SpatialError;
+use crate::fit::Squares;
+use crate::normal::{Deviations, Normal, add_priors, squares_of_errors};
+use crate::parallel::over_few_lines;
+use crate::patterns::Patterns;
+use crate::problem::{Problem, Unknowns};
+use crate::side::MOTIONS;
+
+/// Noise of a substructure that is said to have none, in parts of each value: nobody knows better.
+const LEAST: f64 = 1e-4;
+
+/// Values below this part of what their row and column have are noisy like such.
+const FAINT: f64 = 1e-4;
+
+/// Steps of h at most, and the squares below which one was the last.
+const STEPS_MAX: usize = 15;
+const SETTLED: f64 = 1e-9;
+
+/// Damping of a step of h: near a resonance the functions are not linear in it.
+const DAMPING_MIN: f64 = 1e-3;
+const DAMPING_MAX: f64 = 1e6;
+
+/// Squares of a line over its numbers that no noise explains.
+const LAGGING: f64 = 2.0;
+
+/// The squares of everything that was measured.
+pub(crate) struct Beside<'p> {
+    problem: &'p Problem,
+    nodes: Problem,
+    /// 1/σ² of the assembly's functions, and of those of the substructures at each line.
+    weights: DMatrix<f64>,
+    own_weights: [Vec<DMatrix<f64>>; 2],
+    grids: Grids,
+    /// As it follows at the unknowns that were accepted last, and that were tried last.
+    hidden: Vec<Hidden>,
+    measured: Vec<Hidden>,
+    tried: Option<(Unknowns, Vec<Hidden>)>,
+}
+
+struct Grids {
+    assembly: Grid,
+    own: [Vec<Grid>; 2],
+}
+
+impl<'p> Beside<'p> {
+    /// With the substructures as they were measured by a set-up with the errors among `at`; they have noise in these parts of each
+    /// value.
+    pub(crate) fn of(
+        problem: &'p Problem,
+        level: &Deviations,
+        noise: [f64; 2],
+        at: &Unknowns,
+    ) -> Result<Self, SpatialError> {
+        let errors = problem.errors(at);
+        let mut own_weights = [Vec::new(), Vec::new()];
+        let mut reduced = [Vec::new(), Vec::new()];
+        for (n, side) in problem.sides.iter().enumerate() {
+            let rows = Rows::of(side, &errors[n])?;
+            let own = Group {
+                left: rows.reduction.rows.clone(),
+                right: rows.reduction.columns.transpose(),
+            };
+            for functions in &side.lines {
+                // weights by what is measured would favour what noise has made small
+                let first = weights(functions, noise[n]);
+                let smooth = rows
+                    .reduction
+                    .expanded(&reduced_by(&own, &first, functions)?);
+                let weights = match side.points() {
+                    Some(_) => self::weights(&smooth, noise[n]),
+                    None => first,
+                };
+                reduced[n].push(reduced_by(&own, &weights, functions)?);
+                own_weights[n].push(weights);
+            }
+        }
+        let [a, b] = reduced;
+        let hidden: Vec<Hidden> = a.into_iter().zip(b).map(<[_; 2]>::from).collect();
+        let weights = problem.weights(level);
+        Ok(Self {
+            nodes: between_nodes(problem, &hidden),
+            grids: Grids::of(&weights, &own_weights, 1.0),
+            problem,
+            weights,
+            own_weights,
+            measured: hidden.clone(),
+            hidden,
+            tried: None,
+        })
+    }
+
+    /// With h as it was measured.
+    pub(crate) fn begin(&mut self) {
+        self.hidden = self.measured.clone();
+        self.tried = None;
+    }
+
+    /// As if all noise were so many times as large.
+    pub(crate) fn raise(&mut self, factor: f64) {
+        self.grids = Grids::of(&self.weights, &self.own_weights, factor);
+    }
+
+    /// Real numbers that are compared, less those of h.
+    pub(crate) fn numbers(&self) -> usize {
+        let own = self.problem.sides.iter().zip(&self.nodes.sides);
+        let beyond = own.map(|(side, reduced)| {
+            side.responses.len() * side.references.len()
+                - reduced.responses.len() * reduced.references.len()
+        });
+        let lines = self.problem.frequency_hz.len();
+        self.problem.numbers() + 2 * lines * beyond.sum::<usize>()
+    }
+
+    /// The squares where the substructures are what they were measured to be.
+    pub(crate) fn cost_as_measured(&self, unknowns: &Unknowns) -> Result<f64, SpatialError> {
+        let model = Model::of(self.problem, &self.nodes, unknowns)?;
+        let parts = over_few_lines(self.hidden.len(), |lines| {
+            let of = |line: usize| {
+                let computed = model.line(line, &self.measured[line])?;
+                Ok::<_, SpatialError>(2.0 * self.squares(line, &computed))
+            };
+            lines.map(of).sum::<Result<f64, _>>()
+        })?;
+        Ok(squares_of_errors(self.problem, unknowns) + parts.iter().sum::<f64>())
+    }
+
+    /// The substructures as they were found at these unknowns, with an exact set-up.
+    pub(crate) fn found(&self, unknowns: &Unknowns) -> Result<Problem, SpatialError> {
+        let model = self.model(unknowns)?;
+        let mut own = self.problem.displaced(unknowns)?;
+        for (n, side) in own.sides.iter_mut().enumerate() {
+            let expanded = |hidden: &Hidden| model.rows[n].reduction.expanded(&hidden[n]);
+            side.lines = self.hidden.iter().map(expanded).collect();
+        }
+        Ok(own)
+    }
+
+    fn model(&self, unknowns: &Unknowns) -> Result<Model<'_>, SpatialError> {
+        Model::of(self.problem, &self.nodes, unknowns)
+    }
+
+    /// Measured less computed functions of the assembly, 0 where nothing was measured.
+    fn errors(&self, line: usize, computed: &Computed) -> DMatrix<Complex64> {
+        let (rows, columns) = computed.assembly.shape();
+        let mut errors = DMatrix::zeros(rows, columns);
+        for one in &self.problem.observed {
+            let at = (one.at[0], one.at[1]);
+            errors[at] = one.values[line] - computed.assembly[at];
+        }
+        errors
+    }
+
+    fn own_errors(&self, side: usize, line: usize, computed: &Computed) -> DMatrix<Complex64> {
+        &self.problem.sides[side].lines[line] - &computed.substructures[side]
+    }
+
+    fn squares(&self, line: usize, computed: &Computed) -> f64 {
+        let own = [0, 1].map(|n| {
+            squares(
+                &self.grids.own[n][line],
+                &self.own_errors(n, line, computed),
+            )
+        });
+        squares(&self.grids.assembly, &self.errors(line, computed)) + own[0] + own[1]
+    }
+
+    /// The numbers of h of both sides.
+    fn hidden_counts(&self) -> [usize; 2] {
+        let count = |n: usize| self.hidden.first().map_or(0, |hidden| hidden[n].len());
+        [count(0), count(1)]
+    }
+
+    /// What the line says of h alone.
+    fn of_hidden(&self, model: &Model<'_>, line: usize, computed: &Computed) -> Gathered {
+        let [a, b] = self.hidden_counts();
+        let places = [0, a];
+        let mut all = vec![Compared {
+            grid: &self.grids.assembly,
+            errors: self.errors(line, computed),
+            groups: vec![
+                (0, model.of_hidden(0, computed)),
+                (a, model.of_hidden(1, computed)),
+            ],
+        }];
+        for n in [0, 1] {
+            all.push(Compared {
+                grid: &self.grids.own[n][line],
+                errors: self.own_errors(n, line, computed),
+                groups: vec![(places[n], model.of_hidden_alone(n))],
+            });
+        }
+        Gathered::of(a + b, all)
+    }
+
+    /// What it says of h, then of the joints, then of the rows of the set-up of each side.
+    fn of_everything(
+        &self,
+        model: &Model<'_>,
+        line: usize,
+        hidden: &Hidden,
+        computed: &Computed,
+    ) -> Gathered {
+        let [a, b] = self.hidden_counts();
+        let places = [0, a];
+        let mut next = a + b;
+        let mut put = |group: Group| {
+            let place = next;
+            next += group.count();
+            (place, group)
+        };
+        let mut groups = vec![
+            (0, model.of_hidden(0, computed)),
+            (a, model.of_hidden(1, computed)),
+        ];
+        groups.extend(model.of_joints(computed).into_iter().map(&mut put));
+        let mut alone = Vec::new();
+        for n in [0, 1] {
+            let mut own = vec![(places[n], model.of_hidden_alone(n))];
+            if self.has_set_up(n) {
+                let in_assembly = model.of_set_up(n, computed).map(&mut put);
+                let of_own = model.of_set_up_alone(n, hidden);
+                let firsts = in_assembly.each_ref().map(|(place, _)| *place);
+                own.extend(firsts.into_iter().zip(of_own));
+                groups.extend(in_assembly);
+            }
+            alone.push(Compared {
+                grid: &self.grids.own[n][line],
+                errors: self.own_errors(n, line, computed),
+                groups: own,
+            });
+        }
+        alone.insert(
+            0,
+            Compared {
+                grid: &self.grids.assembly,
+                errors: self.errors(line, computed),
+                groups,
+            },
+        );
+        Gathered::of(next, alone)
+    }
+
+    fn has_set_up(&self, side: usize) -> bool {
+        self.problem.tolerances.is_some() && self.problem.sides[side].points().is_some()
+    }
+
+    /// h as it follows at one line, from where it is; and the line's squares.
+    fn followed(
+        &self,
+        model: &Model<'_>,
+        line: usize,
+        from: &Hidden,
+    ) -> Result<(Hidden, f64), SpatialError> {
+        let mut hidden = from.clone();
+        let mut computed = model.line(line, &hidden)?;
+        let mut lowest = self.squares(line, &computed);
+        let mut damping = 0.0;
+        for _ in 0..STEPS_MAX {
+            let Gathered {
+                products, slopes, ..
+            } = self.of_hidden(model, line, &computed);
+            let mut moved = None;
+            let mut gain = 0.0;
+            while moved.is_none() && damping < DAMPING_MAX {
+                let mut damped = products.clone();
+                for n in 0..damped.nrows() {
+                    damped[(n, n)] *= 1.0 + damping;
+                }
+                let root = Cholesky::new(damped).ok_or(SpatialError::NotDetermined)?;
+                let step = root.solve(&slopes);
+                gain = slopes.dotc(&step).re;
+                let trial = advanced(&hidden, &step, 1.0);
+                moved = model.line(line, &trial).ok().and_then(|own| {
+                    let found = self.squares(line, &own);
+                    (found < lowest).then_some((trial, own, found))
+                });
+                if gain < SETTLED * (1.0 + lowest) {
+                    break;
+                }
+                damping = match moved {
+                    None => (10.0 * damping).max(DAMPING_MIN),
+                    Some(_) if damping > DAMPING_MIN => 0.1 * damping,
+                    Some(_) => 0.0,
+                };
+            }
+            let Some((trial, own, found)) = moved else {
+                break;
+            };
+            (hidden, computed, lowest) = (trial, own, found);
+            if gain < SETTLED * (1.0 + lowest) {
+                break;
+            }
+        }
+        Ok((hidden, 2.0 * lowest))
+    }
+
+    /// The lines that joint and set-up explain, of those that are here: at the others h cannot be found, as near a resonance that
+    /// moves by more than its width. All, where so many are not explained that it is not their fault.
+    pub(crate) fn explained(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
+        let model = Model::of(self.problem, &self.nodes, unknowns)?;
+        let lines = self.measured.len();
+        let numbers = (self.numbers() / lines.max(1)) as f64;
+        let parts = over_few_lines(lines, |lines| {
+            let of = |line: usize| {
+                let (_, squares) = self.followed(&model, line, &self.measured[line])?;
+                Ok::<_, SpatialError>(squares < LAGGING * numbers)
+            };
+            lines.map(of).collect::<Result<Vec<_>, _>>()
+        })?;
+        let is_explained = parts.concat();
+        let explained: Vec<usize> = (0..lines).filter(|&line| is_explained[line]).collect();
+        Ok(match 10 * explained.len() >= 9 * lines {
+            true => explained,
+            false => (0..lines).collect(),
+        })
+    }
+
+    /// The normal equations at these unknowns and this h.
+    fn normal_at(&self, unknowns: &Unknowns, hidden: &[Hidden]) -> Result<Normal, SpatialError> {
+        let model = self.model(unknowns)?;
+        let [a, b] = self.hidden_counts();
+        let of_h = a + b;
+        let mut first = MOTIONS * MOTIONS * self.problem.links.sought().len();
+        let mut of_set_up = Vec::new();
+        for n in [0, 1] {
+            if self.has_set_up(n) {
+                of_set_up.extend(model.rows[n].patterns(first));
+                first += MOTIONS * model.rows[n].near().iter().sum::<usize>();
+            }
+        }
+        let patterns = Patterns::beside(self.problem, of_set_up);
+        let count = self.problem.count();
+        let parts = over_few_lines(hidden.len(), |lines| {
+            let mut normal = Normal::zeros(count);
+            for line in lines {
+                let computed = model.line(line, &hidden[line])?;
+                let all = self.of_everything(&model, line, &hidden[line], &computed);
+                normal.cost += 2.0 * all.squares;
+                let (products, slopes) = eliminated(&patterns, of_h, &all)?;
+                normal.add_line(self.problem.omega(line), &patterns, &products, &slopes);
+            }
+            Ok::<_, SpatialError>(normal)
+        })?;
+        let mut normal = Normal::zeros(count);
+        for part in &parts {
+            normal.add(part);
+        }
+        add_priors(self.problem, unknowns, &mut normal);
+        Ok(normal)
+    }
+
+    /// The normal equations where the substructures are what they were measured to be.
+    pub(crate) fn normal_as_measured(&self, unknowns: &Unknowns) -> Result<Normal, SpatialError> {
+        self.normal_at(unknowns, &self.measured)
+    }
+
+    fn all_followed(&self, unknowns: &Unknowns) -> Result<(Vec<Hidden>, f64), SpatialError> {
+        let model = self.model(unknowns)?;
+        let parts = over_few_lines(self.hidden.len(), |lines| {
+            let of = |line: usize| self.followed(&model, line, &self.hidden[line]);
+            lines.map(of).collect::<Result<Vec<_>, SpatialError>>()
+        })?;
+        let mut cost = squares_of_errors(self.problem, unknowns);
+        let mut hidden = Vec::new();
+        for (own, squares) in parts.into_iter().flatten() {
+            hidden.push(own);
+            cost += squares;
+        }
+        Ok((hidden, cost))
+    }
+}
+
+impl Squares for Beside<'_> {
+    fn problem(&self) -> &Problem {
+        self.problem
+    }
+
+    fn normal(&mut self, unknowns: &Unknowns) -> Result<Normal, SpatialError> {
+        self.hidden = match self.tried.take() {
+            Some((own, hidden)) if own == *unknowns => hidden,
+            _ => self.all_followed(unknowns)?.0,
+        };
+        self.normal_at(unknowns, &self.hidden)
+    }
+
+    fn cost(&mut self, unknowns: &Unknowns) -> Result<f64, SpatialError> {
+        let (hidden, cost) = self.all_followed(unknowns)?;
+        self.tried = Some((unknowns.clone(), hidden));
+        Ok(cost)
+    }
+}
+
+impl Grids {
+    fn of(weights: &DMatrix<f64>, own: &[Vec<DMatrix<f64>>; 2], factor: f64) -> Self {
+        let by = factor.powi(-2);
+        Self {
+            assembly: Grid::new(weights * by),
+            own: own
+                .each_ref()
+                .map(|own| own.iter().map(|own| Grid::new(own * by)).collect()),
+        }
+    }
+}
+
+/// 1/σ² of functions whose noise is this part of each value.
+fn weights(functions: &DMatrix<Complex64>, part: f64) -> DMatrix<f64> {
+    let rms = |all: Vec<f64>| (all.iter().sum::<f64>() / all.len().max(1) as f64).sqrt();
+    let of_rows: Vec<f64> = (functions.row_iter())
+        .map(|row| rms(row.iter().map(Complex64::norm_sqr).collect()))
+        .collect();
+    let of_columns: Vec<f64> = (functions.column_iter())
+        .map(|column| rms(column.iter().map(Complex64::norm_sqr).collect()))
+        .collect();
+    let all = rms(functions.iter().map(Complex64::norm_sqr).collect());
+    DMatrix::from_fn(functions.nrows(), functions.ncols(), |i, j| {
+        let least = FAINT * of_rows[i] * of_columns[j] / all;
+        let size = functions[(i, j)].norm().max(least) * part.max(LEAST);
+        if size > 0.0 { size.powi(-2) } else { 0.0 }
+    })
+}
+
+/// h by weighted least squares.
+fn reduced_by(
+    own: &Group,
+    weights: &DMatrix<f64>,
+    functions: &DMatrix<Complex64>,
+) -> Result<DMatrix<Complex64>, SpatialError> {
+    let grid = Grid::new(weights.clone());
+    let own = std::slice::from_ref(own);
+    let root = Cholesky::new(information(&grid, own)).ok_or(SpatialError::NotDetermined)?;
+    let values = root.solve(&descent(&grid, own, functions));
+    let (rows, columns) = (own[0].left.ncols(), own[0].right.nrows());
+    Ok(DMatrix::from_row_slice(rows, columns, values.as_slice()))
+}
+
+/// h with a part of a step, whose numbers are row by row.
+fn advanced(hidden: &Hidden, step: &DVector<Complex64>, part: f64) -> Hidden {
+    let mut first = 0;
+    hidden.each_ref().map(|own| {
+        let (rows, columns) = own.shape();
+        let values = step.rows(first, rows * columns);
+        first += rows * columns;
+        own + DMatrix::from_fn(rows, columns, |p, q| values[p * columns + q] * part)
+    })
+}
+
+/// Jᴴ S⁻¹ J and Jᴴ S⁻¹ e of a line, whose first dyads are those of h.
+fn eliminated(
+    patterns: &Patterns,
+    of_h: usize,
+    all: &Gathered,
+) -> Result<(DMatrix<Complex64>, DVector<Complex64>), SpatialError> {
+    let rest = all.slopes.len() - of_h;
+    let own = |row: usize, column: usize, height: usize, width: usize| {
+        all.products
+            .view((row, column), (height, width))
+            .into_owned()
+    };
+    let root: Cholesky<Complex64, Dyn> =
+        Cholesky::new(own(0, 0, of_h, of_h)).ok_or(SpatialError::NotDetermined)?;
+    let mut cross = patterns.columns(&own(0, of_h, of_h, rest));
+    let mut pull = all.slopes.rows(0, of_h).into_owned();
+    let lower = root.l_dirty();
+    let is_solved =
+        lower.solve_lower_triangular_mut(&mut cross) && lower.solve_lower_triangular_mut(&mut pull);
+    if !is_solved {
+        return Err(SpatialError::NotDetermined);
+    }
+    let products = patterns.products(&own(of_h, of_h, rest, rest)) - cross.ad_mul(&cross);
+    let slopes = patterns.slopes(&all.slopes.rows(of_h, rest).into_owned()) - cross.ad_mul(&pull);
+    Ok((products, slopes))
+}

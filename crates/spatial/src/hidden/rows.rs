@@ -1,0 +1,59 @@
+//! What sensors and impacts see of the motions and loads of their interface, where these are known to a budget only.
+
+use bolted_joint_virtual_point::Role;
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use crate::error::SpatialError;
+use crate::patterns::Pattern;
+use crate::side::{MOTIONS, Reduction, Side};
+
+/// R_u, R_f of one side with errors of its set-up, and how they change with each of these.
+pub(super) struct Rows {
+    /// R_u, responses × (6 + others); R_f, references × (6 + others); and their inverses.
+    pub(super) reduction: Reduction,
+    /// dR_u by each error of the sensors, channels × 6; dR_f by each of the impacts, impacts × 6.
+    pub(super) changes: [Vec<DMatrix<f64>>; 2],
+}
+
+impl Rows {
+    pub(super) fn of(side: &Side, errors: &[f64]) -> Result<Self, SpatialError> {
+        let displaced = side.displaced(errors)?;
+        let reduction = displaced.reduction()?;
+        let mut changes = [Vec::new(), Vec::new()];
+        if let Some((placed, set_up)) = displaced.points() {
+            let mut rest = errors;
+            for (own, role) in changes.iter_mut().zip([Role::Channel, Role::Impact]) {
+                let places = set_up.places(role);
+                *own = places.derivatives();
+                let (first, others) = rest.split_at(own.len());
+                rest = others;
+                let by_vectors = places.by_rotation_vectors(own, first);
+                by_vectors.map_err(|source| placed.refused(source))?;
+            }
+        }
+        Ok(Self { reduction, changes })
+    }
+
+    /// Channels, and impacts, of the interface.
+    pub(super) fn near(&self) -> [usize; 2] {
+        let near = |own: &DMatrix<Complex64>| own.nrows() - (own.ncols() - MOTIONS);
+        [&self.reduction.rows, &self.reduction.columns].map(near)
+    }
+
+    /// What each error does, by the dyads of the channels (first those, channel by channel, six motions each) and of the impacts
+    /// (motion by motion, all impacts each); `first` is the place of the first dyad.
+    pub(super) fn patterns(&self, first: usize) -> Vec<Pattern> {
+        let [channels, impacts] = self.near();
+        let of_channels = self.changes[0].iter().map(|change| {
+            let places = (0..channels).flat_map(|p| (0..MOTIONS).map(move |q| (p, q)));
+            Pattern::new(places.map(|(p, q)| (first + MOTIONS * p + q, change[(p, q)])))
+        });
+        let first = first + MOTIONS * channels;
+        let of_impacts = self.changes[1].iter().map(|change| {
+            let places = (0..MOTIONS).flat_map(|p| (0..impacts).map(move |q| (p, q)));
+            Pattern::new(places.map(|(p, q)| (first + impacts * p + q, change[(q, p)])))
+        });
+        of_channels.chain(of_impacts).collect()
+    }
+}

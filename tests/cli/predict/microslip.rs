@@ -209,6 +209,10 @@ fn the_example_slips() {
     bench.done("respond loops.toml -o loops.csv --report loops.html");
     bench.done("export lap.joint.json -o lap.fmu");
     bench.done("check lap.fmu");
+    // and over the torque, for a bolt that loosens
+    bench.done("predict over-torque.toml -o over-torque.joint.json");
+    bench.done("export over-torque.joint.json -o over-torque.fmu");
+    bench.done("check over-torque.fmu");
     // μ times the preload of the one bolt
     let file = bench.json("lap.joint.json");
     close(

@@ -141,12 +141,63 @@ fn friction_with_a_table_of_its_own_has_its_stiffness_from_it() {
         assert_eq!(at(Some(preload)).parameters, [stiffness, slip_force]);
     }
     assert_eq!(at(None), at(Some(15.0)));
-    // while the preload moves, what the springs of friction do is not known
-    let moving = table.joint.law_over_preload::<2>(Beyond::Refused);
-    assert_eq!(moving, Err(LawError::FrictionOverPreload));
+    // a preload that moves has the same laws
+    let moving = table.joint.law_over_preload::<2>(Beyond::Refused).unwrap();
+    for preload in [10.0, 12.0, 17.0, 25.0] {
+        let slider = moving.law(preload).on[0].jenkins();
+        let alone = at(Some(preload)).parameters;
+        close(slider.stiffness, alone[0], 1e-15);
+        close(slider.slip_force, alone[1], 1e-15);
+    }
     // read again as it was written
     let again = JointFile::from_json(&table.to_json().unwrap(), "").unwrap();
     assert_eq!(again, table);
+}
+
+/// Bouc–Wen's load is a state of the importer's, and LuGre's passive range is not convex.
+#[test]
+fn laws_that_cannot_follow_a_preload_are_told() {
+    let bouc_wen = |stiffness: f64, slip_force: f64| {
+        format!(
+            "[{{ \"dof\": \"y\", \"law\": \"bouc-wen\", \"stiffness\": {stiffness}, \"slip_force\": {slip_force}, \
+             \"exponent\": 1.5, \"beta\": 0.7, \"gamma\": 0.3 }}]"
+        )
+    };
+    let of = |entries: [String; 3]| {
+        let file = JointFile::from_json(&with_sliders(&entries.join(", ")), "").unwrap();
+        assert_eq!(file.validate(), []);
+        file.joint.law_over_preload::<2>(Beyond::Refused)
+    };
+    assert!(
+        of([
+            bouc_wen(1e6, 20.0),
+            bouc_wen(1e6, 30.0),
+            bouc_wen(1e6, 50.0)
+        ])
+        .is_ok()
+    );
+    let found = of([
+        bouc_wen(1e6, 20.0),
+        bouc_wen(1.5e6, 30.0),
+        bouc_wen(2e6, 50.0),
+    ]);
+    assert_eq!(found, Err(LawError::StateOverPreload { law: "bouc-wen" }));
+    let lugre = |bristle_damping: f64, static_force: f64| {
+        format!(
+            "[{{ \"dof\": \"y\", \"law\": \"lugre\", \"stiffness\": 1e6, \"bristle_damping\": {bristle_damping}, \
+             \"damping\": 0.0, \"slip_force\": 10.0, \"static_force\": {static_force}, \"stribeck_velocity\": 1e-3 }}]"
+        )
+    };
+    let entries = [lugre(10.0, 10.0), lugre(10.0, 10.0), lugre(0.0, 30.0)].join(", ");
+    // σ₁ (F_s − F_c)/F_c at 20 N·m, half the way: 5 · 10/10
+    has(
+        &refused(&with_sliders(&entries), ""),
+        &[
+            "joint.over_preload.friction[1][0].damping",
+            "15.0 to 25.0 N·m and at 20.0 N·m",
+            "expected 5.0 or more",
+        ],
+    );
 }
 
 #[test]

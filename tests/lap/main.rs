@@ -15,5 +15,6 @@ mod published_backbone;
 mod refusals;
 mod residual;
 mod responses;
+mod runs;
 mod slipping;
 mod updating;

@@ -28,7 +28,7 @@ pub struct PassedEnergy {
 pub struct LapConditions<const D: usize> {
     /// The bodies, and the joint at its present preload.
     pub lap: Lap<D>,
-    /// How fast the joint's law changes: its coefficients per s.
+    /// How fast the joint's springs change, those of its friction among them: coefficients per s.
     pub law_rate: JointLaw<D>,
     /// External loads.
     pub loads: LapLoads<D>,
@@ -65,14 +65,16 @@ impl<const D: usize> LapConditions<D> {
     /// Power of the external loads, of the dampers and of the changing stiffness in this state, W. The heat of laws that
     /// remember is none of it: that is counted where they move on.
     #[must_use]
-    pub fn powers(&self, state: &LapState<D>) -> PassedEnergy {
+    pub fn powers(&self, memory: &JointMemory<D>, state: &LapState<D>) -> PassedEnergy {
         let relative = state.relative();
         PassedEnergy {
             // P = F_aᵀ ẋ_a + F_bᵀ ẋ_b
             supplied: dot(&self.loads.a, &state.a.velocity) + dot(&self.loads.b, &state.b.velocity),
             dissipated: self.lap.viscous_power(state),
-            // ∂U/∂t at constant r = ½ rᵀ (dK/dt) r + ¼ Σ (dk3/dt) r⁴: U is linear in the coefficients
-            preload: self.law_rate.stored_energy(&relative.displacement),
+            preload: self
+                .lap
+                .joint
+                .power_of_change(&self.law_rate, memory, &relative.displacement),
         }
     }
 
@@ -133,7 +135,7 @@ impl<const D: usize> LapConditions<D> {
                 a: rate(&state.a, of_a),
                 b: rate(&state.b, of_b),
             },
-            powers: self.powers(state),
+            powers: self.powers(memory, state),
         }
     }
 }

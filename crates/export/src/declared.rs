@@ -35,8 +35,11 @@ pub(super) fn kind(file: &JointFile) -> Joints {
         .chain(
             file.joint
                 .over_preload
-                .is_some()
-                .then_some(Joints::OVER_PRELOAD),
+                .as_ref()
+                .map(|table| match table.friction.is_empty() {
+                    true => Joints::OVER_PRELOAD,
+                    false => Joints::OVER_PRELOAD.with(Joints::FRICTION_TABLE),
+                }),
         )
         .reduce(Joints::with)
         .unwrap_or(Joints::CONSTANT)

@@ -33,14 +33,17 @@ pub fn laws_line(file: &JointFile) -> String {
 }
 
 /// The table of a joint over the preload: a heading, then a line for each preload with the preload, the upper triangles of K
-/// and C row by row, and k3; empty for a constant joint. Friction is stated at the preload at the heading's end.
+/// and C row by row, and k3; empty for a constant joint. Friction is stated at the preload at the heading's end; where it has a
+/// table of its own, the heading ends with `friction`, and each line with the parameters of the laws in [`laws_line`] on each DOF.
 pub fn table_lines(joint: &Joint, extrapolate: bool) -> String {
     let Some(table) = &joint.over_preload else {
         return String::new();
     };
     let beyond = if extrapolate { "held" } else { "refused" };
     let mut text = format!("table {} {beyond}", table.preload.len());
-    if !joint.friction.is_empty() {
+    if !table.friction.is_empty() {
+        text.push_str(" friction");
+    } else if !joint.friction.is_empty() {
         let _ = write!(text, " {:?}", table.nominal);
     }
     text.push('\n');
@@ -57,6 +60,21 @@ pub fn table_lines(joint: &Joint, extrapolate: bool) -> String {
         match table.cubic.get(place) {
             Some(cubic) => numbers.extend(cubic),
             None => numbers.extend(std::iter::repeat_n(0.0, order)),
+        }
+        if let Some(own) = table.friction.get(place) {
+            let at = Joint {
+                friction: own.clone(),
+                over_preload: None,
+                ..joint.clone()
+            };
+            for dof in joint.dofs.rows() {
+                for law in joint.laws_with_memory() {
+                    let own = at.friction_on(dof, law);
+                    let value = |parameter| own.and_then(|own| own.value(parameter));
+                    let all = law.parameters.iter();
+                    numbers.extend(all.map(|parameter| value(parameter).unwrap_or(0.0)));
+                }
+            }
         }
         let words: Vec<String> = numbers.iter().map(|number| format!("{number:?}")).collect();
         text += &words.join(" ");

@@ -11,8 +11,8 @@ use std::{borrow::Cow, fmt};
 use bolted_joint_dynamics::{
     DOF_COUNT, DOFS, SPACE, SPACE_COUNT,
     law::{
-        DOF_PARAMETER_COUNT, FIRST_INNER_COUNT, FIRST_PARAMETER_COUNT, FIRST_REMEMBERED_COUNT,
-        INNER_COUNT, REMEMBERED_COUNT,
+        DECLARATIONS, DOF_PARAMETER_COUNT, Declaration, FIRST_INNER_COUNT, FIRST_PARAMETER_COUNT,
+        FIRST_REMEMBERED_COUNT, INNER_COUNT, REMEMBERED_COUNT,
     },
 };
 
@@ -56,11 +56,13 @@ pub(crate) struct ContinuousState {
 pub(crate) enum Dependence {
     /// Parameters alone.
     Constant,
-    /// The preload; with what these laws remember, a bit for each, if there are any.
+    /// The preload; with what these laws remember, a bit for each, if there are any, and one if they are a table.
     OverPreload(u32),
     /// Parameters, and what these laws remember of the motion, a bit for each as in [`Variable::joints`]; not empty.
     Memory(u32),
 }
+
+const OVER_PRELOAD_WITH_TABLE: u32 = JOINTS_OVER_PRELOAD | JOINTS_WITH_FRICTION_TABLE;
 
 impl Dependence {
     /// The joint whose laws with memory have these names, separated by spaces.
@@ -88,17 +90,33 @@ impl Dependence {
         match number & !known {
             CONSTANT_JOINTS if laws == 0 => Some(Self::Constant),
             JOINTS_OVER_PRELOAD => Some(Self::OverPreload(laws)),
+            OVER_PRELOAD_WITH_TABLE if laws != 0 => {
+                Some(Self::OverPreload(laws | JOINTS_WITH_FRICTION_TABLE))
+            }
             0 if laws != 0 => Some(Self::Memory(laws)),
             _ => None,
         }
     }
 
-    /// The same over the preload.
-    pub(crate) const fn over_preload(self) -> Self {
+    /// The same over the preload, with what it remembers by parameters or by a table of these.
+    pub(crate) const fn over_preload(self, has_friction_table: bool) -> Self {
         match self {
+            Self::Memory(laws) if has_friction_table => {
+                Self::OverPreload(laws | JOINTS_WITH_FRICTION_TABLE)
+            }
             Self::Memory(laws) | Self::OverPreload(laws) => Self::OverPreload(laws),
             Self::Constant => Self::OverPreload(0),
         }
+    }
+
+    /// The laws that remember the motion, in the order in which they are declared.
+    pub(crate) fn laws(self) -> impl Iterator<Item = &'static Declaration> {
+        let own = match self {
+            Self::Constant => 0,
+            Self::OverPreload(laws) | Self::Memory(laws) => laws,
+        };
+        let all = MEMORY_LAWS.iter().filter(move |(_, law)| own & law != 0);
+        all.filter_map(|(name, _)| DECLARATIONS.iter().find(|law| law.numbered_name() == *name))
     }
 
     /// Whether the joint remembers its motion.
@@ -114,6 +132,11 @@ impl Dependence {
     /// constant law, whatever it remembers.
     const fn has(self, joints: u32) -> bool {
         match self {
+            Self::OverPreload(laws)
+                if laws & JOINTS_WITH_FRICTION_TABLE != 0 && joints & FRICTION_PARAMETERS != 0 =>
+            {
+                false
+            }
             Self::Constant => joints & CONSTANT_JOINTS != 0,
             Self::Memory(laws) => joints & laws != 0,
             Self::OverPreload(_) if joints & CONSTANT_JOINTS != 0 => {

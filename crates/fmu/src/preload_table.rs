@@ -2,6 +2,7 @@
 
 use bolted_joint_dynamics::{
     Beyond, DofLaws, JointLaw, JointOverPreload, Linear, Polynomial, SPACE_COUNT, TableDefect,
+    law::{DOF_PARAMETER_COUNT, Declaration, dof_parameters},
 };
 
 use crate::interface::Dofs;
@@ -17,20 +18,51 @@ pub(crate) enum PreloadTable {
     Six(Box<OverPreload<SPACE_COUNT>>),
 }
 
-/// A joint over the preload, and the preload that its friction is stated at.
+/// A joint over the preload, and where its friction is.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OverPreload<const D: usize> {
-    /// The joint; its friction is among the parameters.
+    /// The joint; its friction is among the parameters, unless it has a table of that.
     pub(crate) joint: JointOverPreload<D>,
-    /// N·m; of a joint without friction there is none.
-    pub(crate) nominal_n_m: Option<f64>,
+    friction: FrictionOf,
+}
+
+/// Where the friction of a joint over the preload is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum FrictionOf {
+    /// There is none.
+    Nothing,
+    /// Among the parameters, as it is at this preload, N·m.
+    Parameters { nominal_n_m: f64 },
+    /// In the table.
+    Table,
+}
+
+/// What the heading of a table says of friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum TableFriction<'a> {
+    /// There is none.
+    None,
+    /// It is stated at this preload, N·m.
+    At(f64),
+    /// The parameters of these laws on each DOF stand in each line.
+    InLines(&'a [&'static Declaration]),
+}
+
+impl TableFriction<'_> {
+    /// Numbers of it in a line, for each DOF.
+    fn count(self) -> usize {
+        match self {
+            Self::None | Self::At(_) => 0,
+            Self::InLines(laws) => laws.iter().map(|law| law.parameters.len()).sum(),
+        }
+    }
 }
 
 impl PreloadTable {
-    /// Numbers in a row: the preload, the upper triangles of K and C row by row, k3.
-    pub(crate) const fn columns(dofs: Dofs) -> usize {
+    /// Numbers in a row: the preload, the upper triangles of K and C row by row, k3, and friction.
+    pub(crate) fn columns(dofs: Dofs, friction: TableFriction<'_>) -> usize {
         let order = dofs.count();
-        1 + order * (order + 1) + order
+        1 + order * (order + 1) + order + order * friction.count()
     }
 
     /// The joint through these rows, each of [`PreloadTable::columns`] numbers.
@@ -38,19 +70,29 @@ impl PreloadTable {
         dofs: Dofs,
         rows: &[Vec<f64>],
         beyond: Beyond,
-        nominal_n_m: Option<f64>,
+        friction: TableFriction<'_>,
     ) -> Result<Self, TableDefect> {
         match dofs {
-            Dofs::One => over_preload(dofs, rows, beyond, nominal_n_m)
+            Dofs::One => over_preload(dofs, rows, beyond, friction)
                 .map(Box::new)
                 .map(Self::One),
-            Dofs::Two => over_preload(dofs, rows, beyond, nominal_n_m)
+            Dofs::Two => over_preload(dofs, rows, beyond, friction)
                 .map(Box::new)
                 .map(Self::Two),
-            Dofs::Space(_) => over_preload(dofs, rows, beyond, nominal_n_m)
+            Dofs::Space(_) => over_preload(dofs, rows, beyond, friction)
                 .map(Box::new)
                 .map(Self::Six),
         }
+    }
+
+    /// Whether friction is in the table, so that it is no parameter.
+    pub(crate) fn has_friction(&self) -> bool {
+        let friction = match self {
+            Self::One(table) => table.friction,
+            Self::Two(table) => table.friction,
+            Self::Six(table) => table.friction,
+        };
+        friction == FrictionOf::Table
     }
 
     /// Whether there is a joint at this preload (N·m).
@@ -76,22 +118,53 @@ fn over_preload<const D: usize>(
     dofs: Dofs,
     rows: &[Vec<f64>],
     beyond: Beyond,
-    nominal_n_m: Option<f64>,
+    friction: TableFriction<'_>,
 ) -> Result<OverPreload<D>, TableDefect> {
     let table: Vec<_> = rows.iter().filter_map(|row| law(dofs, row)).collect();
-    Ok(OverPreload {
-        joint: JointOverPreload::new(&table, beyond)?,
-        nominal_n_m,
+    let joint = JointOverPreload::new(&table, beyond)?;
+    Ok(match friction {
+        TableFriction::None => OverPreload {
+            joint,
+            friction: FrictionOf::Nothing,
+        },
+        TableFriction::At(nominal_n_m) => OverPreload {
+            joint,
+            friction: FrictionOf::Parameters { nominal_n_m },
+        },
+        TableFriction::InLines(laws) => {
+            let behind = PreloadTable::columns(dofs, TableFriction::None);
+            let own = |row: &Vec<f64>| sliders(dofs, laws, row.get(behind..).unwrap_or_default());
+            let entries: Vec<_> = rows.iter().map(own).collect();
+            OverPreload {
+                joint: joint.with_friction_table(&entries)?,
+                friction: FrictionOf::Table,
+            }
+        }
     })
 }
 
+/// The laws on each DOF, by the numbers of a row behind those of springs and dampers.
+fn sliders<const D: usize>(dofs: Dofs, laws: &[&Declaration], numbers: &[f64]) -> [DofLaws; D] {
+    let mut numbers = numbers.iter().copied();
+    let mut on = [[0.0; DOF_PARAMETER_COUNT]; D];
+    for place in dofs.places() {
+        for law in laws {
+            let mut own = on[place].iter_mut().zip(dof_parameters());
+            own.by_ref()
+                .filter(|(_, (other, _))| (other.name, other.number) == (law.name, law.number))
+                .for_each(|(parameter, _)| *parameter = numbers.next().unwrap_or(0.0));
+        }
+    }
+    on.map(DofLaws::new)
+}
+
 impl<const D: usize> OverPreload<D> {
-    /// The joint with the friction of these laws on each relative DOF.
+    /// The joint with the friction of these laws on each relative DOF, where that is among the parameters.
     pub(crate) fn with_friction(&self, on: [DofLaws; D]) -> JointOverPreload<D> {
         let joint = self.joint.clone();
-        match self.nominal_n_m {
-            Some(nominal_n_m) => joint.with_friction(on, nominal_n_m),
-            None => joint,
+        match self.friction {
+            FrictionOf::Parameters { nominal_n_m } => joint.with_friction(on, nominal_n_m),
+            FrictionOf::Nothing | FrictionOf::Table => joint,
         }
     }
 }

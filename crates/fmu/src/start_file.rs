@@ -2,12 +2,12 @@
 
 use std::{fmt, str::Lines, sync::Arc};
 
-use bolted_joint_dynamics::{Beyond, TableDefect};
+use bolted_joint_dynamics::{Beyond, TableDefect, law::Declaration};
 
 use crate::{
     assembly_file::{self, AssemblyFile},
     interface::{BuiltVariables, Dependence, Dofs, Kind, Name, Role, Values, Variables, reference},
-    preload_table::PreloadTable,
+    preload_table::{PreloadTable, TableFriction},
 };
 
 /// First line of every start-value file.
@@ -156,9 +156,10 @@ impl StartFile {
         let dofs = header.next("dofs ", expected, Dofs::from_text)?;
         let token = header.token()?;
         let dependence = header.laws()?.unwrap_or(Dependence::Constant);
-        let table = header.table(dofs, dependence.remembers())?;
-        let dependence = match table {
-            Some(_) => dependence.over_preload(),
+        let laws: Vec<&'static Declaration> = dependence.laws().collect();
+        let table = header.table(dofs, &laws)?;
+        let dependence = match &table {
+            Some(table) => dependence.over_preload(table.has_friction()),
             None => dependence,
         };
         let built = BuiltVariables {
@@ -288,17 +289,18 @@ impl Header<'_> {
     }
 
     /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, of a joint that remembers
-    /// the preload that its friction is stated at, and the lines.
+    /// by these laws the preload that they are stated at or that they are in the lines, and the lines.
     pub(crate) fn table(
         &mut self,
         dofs: Dofs,
-        remembers: bool,
+        laws: &[&'static Declaration],
     ) -> Result<Option<PreloadTable>, StartFileError> {
-        const EXPECTED: &str = "\"table\", the number of its lines, \"refused\" or \"held\", and with laws the preload of these";
+        const EXPECTED: &str = "\"table\", the number of its lines, \"refused\" or \"held\", and with laws the preload of these or \
+                                \"friction\"";
         if !self.goes_on_with("table ") {
             return Ok(None);
         }
-        let (count, beyond, nominal_n_m) = self.next("table ", EXPECTED, |found| {
+        let (count, beyond, friction) = self.next("table ", EXPECTED, |found| {
             let mut words = found.split(' ');
             let count = words.next()?.parse::<u32>().ok()?;
             let beyond = match words.next()? {
@@ -306,15 +308,20 @@ impl Header<'_> {
                 "held" => Beyond::Held,
                 _ => return None,
             };
-            let nominal_n_m = words.next().map(str::parse::<f64>).transpose().ok()?;
-            let is_good = match nominal_n_m {
-                Some(nominal_n_m) => remembers && nominal_n_m > 0.0 && nominal_n_m.is_finite(),
-                None => !remembers,
+            let friction = match (words.next(), laws) {
+                (None, []) => TableFriction::None,
+                (None, _) | (Some(_), []) => return None,
+                (Some("friction"), laws) => TableFriction::InLines(laws),
+                (Some(nominal_n_m), _) => {
+                    let nominal_n_m = nominal_n_m.parse().ok()?;
+                    let is_good = nominal_n_m > 0.0 && f64::is_finite(nominal_n_m);
+                    TableFriction::At(is_good.then_some(nominal_n_m)?)
+                }
             };
-            (is_good && words.next().is_none()).then_some((count, beyond, nominal_n_m))
+            words.next().is_none().then_some((count, beyond, friction))
         })?;
         let heading = self.line;
-        let columns = PreloadTable::columns(dofs);
+        let columns = PreloadTable::columns(dofs, friction);
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for _ in 0..count {
             self.line += 1;
@@ -327,7 +334,7 @@ impl Header<'_> {
                 }
             }
         }
-        let table = PreloadTable::new(dofs, &rows, beyond, nominal_n_m);
+        let table = PreloadTable::new(dofs, &rows, beyond, friction);
         table
             .map(Some)
             .map_err(|defect| self.refuse(heading, Fault::Table(defect)))

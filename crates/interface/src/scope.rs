@@ -42,9 +42,13 @@ impl Joints {
     /// A joint whose law follows from the preload.
     pub const OVER_PRELOAD: Self = Self(2);
     /// A joint with memory.
-    pub const MEMORY: Self = Self(!3);
+    pub const MEMORY: Self = Self(!(3 | Self::FRICTION_TABLE.0 | Self::FRICTION_PARAMETERS.0));
     /// Every joint.
-    pub const ANY: Self = Self(u32::MAX);
+    pub const ANY: Self = Self(!(Self::FRICTION_TABLE.0 | Self::FRICTION_PARAMETERS.0));
+    /// Beside what a joint over the preload is: its laws with memory are a table, so that it has none of their parameters.
+    pub const FRICTION_TABLE: Self = Self(1 << 31);
+    /// Beside the joints that a variable is of: it is a parameter of a law with memory.
+    pub const FRICTION_PARAMETERS: Self = Self(1 << 30);
 
     /// A joint whose law is given by parameters and has the law with memory at this place among the declarations.
     #[must_use]
@@ -73,6 +77,9 @@ impl Joints {
     /// Whether a joint of this kind has what belongs to these joints. One over the preload has no parameter of a constant law,
     /// whatever it remembers.
     const fn has(self, of: Self) -> bool {
+        if self.intersects(Self::FRICTION_TABLE) && of.intersects(Self::FRICTION_PARAMETERS) {
+            return false;
+        }
         if self.0 & Self::OVER_PRELOAD.0 != 0 && of.0 & Self::CONSTANT.0 != 0 {
             return of.0 & Self::OVER_PRELOAD.0 != 0;
         }
@@ -105,7 +112,7 @@ impl Joints {
     /// preload.
     pub(crate) fn of_law(law: usize, laws: &[Declaration]) -> Self {
         if laws[law].remembers() {
-            Self::with_memory_of(law)
+            Self::with_memory_of(law).with(Self::FRICTION_PARAMETERS)
         } else {
             Self::CONSTANT.with(Self::MEMORY)
         }

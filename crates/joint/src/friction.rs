@@ -81,6 +81,17 @@ impl Friction {
 
     /// The first parameter that is outside of the range of the law.
     pub(super) fn outside(&self) -> Option<Outside> {
+        self.alone().outside().map(|(_, outside)| outside)
+    }
+
+    /// The same on the straight way to another one, with the share of the way.
+    pub(super) fn outside_towards(&self, other: &Self) -> Option<(f64, Outside)> {
+        let outside = self.alone().outside_towards(&other.alone());
+        outside.map(|(share, _, outside)| (share, outside))
+    }
+
+    /// This law alone.
+    fn alone(&self) -> DofLaws {
         let mut parameters = [0.0; DOF_PARAMETER_COUNT];
         for (own, (law, parameter)) in parameters.iter_mut().zip(dof_parameters()) {
             if law == self.law {
@@ -88,8 +99,6 @@ impl Friction {
             }
         }
         DofLaws::new(parameters)
-            .outside()
-            .map(|(_, outside)| outside)
     }
 
     /// Each parameter's key with its value.

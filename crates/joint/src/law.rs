@@ -2,7 +2,9 @@
 
 use bolted_joint_dynamics::{
     self as dynamics, Dof,
-    law::{DOF_PARAMETER_COUNT, Declaration, DofLaws, Parameter, Term, dof_parameters},
+    law::{
+        DOF_PARAMETER_COUNT, Declaration, DofLaws, Parameter, RememberedAs, Term, dof_parameters,
+    },
 };
 use thiserror::Error;
 
@@ -25,12 +27,15 @@ pub enum LawError {
          take it at one preload"
     )]
     OverPreload,
-    /// Laws that remember have a table of their own over the preload, which holds while it stays where it is.
+    /// A law whose load is what an importer integrates, with springs that change with the preload.
     #[error(
-        "joint.over_preload.friction: found laws with a table over the preload, expected laws in joint.friction, of which slip \
-         forces alone follow a preload that moves; freeze the joint at one preload (`export --preload`)"
+        "joint.over_preload.friction: found \"{law}\" with a stiffness that depends on the preload, expected the same at all \
+         preloads: its load is a state that follows no preload while it moves; freeze the joint at one preload (`export --preload`)"
     )]
-    FrictionOverPreload,
+    StateOverPreload {
+        /// Name of the law.
+        law: &'static str,
+    },
     /// The table over the preload gives no joint.
     #[error("joint.over_preload: {0}")]
     Table(dynamics::TableDefect),
@@ -145,9 +150,7 @@ impl Joint {
     /// The law that is this one of its kind on a DOF, where `friction` has so many, in its order.
     #[must_use]
     pub fn friction_on(&self, dof: &Dof, law: &Declaration) -> Option<&Friction> {
-        let all = self.friction.iter();
-        all.filter(|own| own.dof.name == dof.name && own.law.name == law.name)
-            .nth(law.number.checked_sub(1)?)
+        friction_on(&self.friction, dof, law)
     }
 
     /// The joint's laws that remember the motion, in the order in which laws are declared: as many of each kind as the DOF has that
@@ -157,8 +160,15 @@ impl Joint {
             .filter(|law| law.remembers())
             .filter(|law| {
                 let mut dofs = self.dofs.rows();
-                dofs.any(|dof| self.friction_on(dof, law).is_some())
+                dofs.any(|dof| friction_on(self.friction_at_first(), dof, law).is_some())
             })
+    }
+
+    /// The laws that remember: those of the first preload where they have a table of their own.
+    fn friction_at_first(&self) -> &[Friction] {
+        let table = self.over_preload.as_ref();
+        let first = table.and_then(|table| table.friction.first());
+        first.unwrap_or(&self.friction)
     }
 
     /// Whether there is nothing beside stiffness and damping, each constant.
@@ -176,6 +186,12 @@ impl Joint {
     }
 }
 
+/// The law that is this one of its kind on a DOF, among these in their order.
+fn friction_on<'f>(all: &'f [Friction], dof: &Dof, law: &Declaration) -> Option<&'f Friction> {
+    let own = |own: &&Friction| own.dof.name == dof.name && own.law.name == law.name;
+    all.iter().filter(own).nth(law.number.checked_sub(1)?)
+}
+
 /// Path of a term of the polynomial law.
 pub(super) fn term_path(term: Term) -> String {
     let key = term.row().key;
@@ -191,23 +207,43 @@ impl Joint {
     ///
     /// # Errors
     ///
-    /// [`LawError`] where the joint has not `D` DOFs, does not depend on the preload, has friction of which more than slip
-    /// forces depends on it, or is malformed.
+    /// [`LawError`] where the joint has not `D` DOFs, does not depend on the preload, has a law whose state cannot follow it, or
+    /// is malformed.
     pub fn law_over_preload<const D: usize>(
         &self,
         beyond: dynamics::Beyond,
     ) -> Result<dynamics::JointOverPreload<D>, LawError> {
         let table = self.over_preload.as_ref().ok_or(LawError::NoTable)?;
         let law = self.springs_over_preload(beyond)?;
-        if !table.friction.is_empty() {
-            return Err(LawError::FrictionOverPreload);
-        }
         let zero = vec![vec![0.0; D]; D];
-        let friction = Self {
-            friction: self.friction.clone(),
-            ..Self::linear(self.dofs, zero.clone(), zero)
+        let alone = |friction: &[Friction]| Self {
+            friction: friction.to_vec(),
+            ..Self::linear(self.dofs, zero.clone(), zero.clone())
         };
-        Ok(law.with_friction(friction.law()?.on, table.nominal))
+        let Some(first) = table.friction.first() else {
+            return Ok(law.with_friction(alone(&self.friction).law()?.on, table.nominal));
+        };
+        for own in table.friction.iter().skip(1) {
+            let mut pairs = first.iter().zip(own);
+            let changes = |(one, other): &(&Friction, &Friction)| {
+                let is_load =
+                    one.law.memory.iter().any(|number| {
+                        number.rate.is_some() && number.quantity == RememberedAs::Load
+                    });
+                let stiffness = |own: &Friction| {
+                    let mut keyed = own.keyed();
+                    keyed.find(|(key, _)| *key == "stiffness")
+                };
+                is_load && stiffness(one) != stiffness(other)
+            };
+            if let Some((one, _)) = pairs.find(changes) {
+                let law = one.law.name;
+                return Err(LawError::StateOverPreload { law });
+            }
+        }
+        let entries = table.friction.iter().map(|own| Ok(alone(own).law()?.on));
+        let entries = entries.collect::<Result<Vec<_>, LawError>>()?;
+        law.with_friction_table(&entries).map_err(LawError::Table)
     }
 
     /// The same without laws that remember.

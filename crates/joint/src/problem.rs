@@ -77,6 +77,25 @@ pub enum JointProblem {
         /// Those at the first preload.
         expected: String,
     },
+    /// A law that would give energy between two preloads at which it takes it.
+    #[error(
+        "{path}: found {law} parameters that are linear from {low:?} to {high:?} N·m and at {between:?} N·m outside of the law's range, \
+         expected {expected}; give an entry between the two"
+    )]
+    OutsideBetween {
+        /// Path of the law at the lower preload.
+        path: String,
+        /// Name of the law.
+        law: &'static str,
+        /// The two preloads, N·m.
+        low: f64,
+        /// The upper one.
+        high: f64,
+        /// Where it is farthest outside, N·m.
+        between: f64,
+        /// What it takes there.
+        expected: String,
+    },
     /// A law on a DOF that the joint has not.
     #[error("{path}: found {found:?}, expected one of joint.dofs = {dofs}")]
     OtherDof {

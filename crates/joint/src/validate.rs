@@ -210,6 +210,33 @@ impl Check {
                 });
             }
         }
+        if self.problems.is_empty() {
+            self.friction_between(table);
+        }
+    }
+
+    /// Between two preloads parameters are linear, and have to be in the law's range all the way.
+    fn friction_between(&mut self, table: &OverPreload) {
+        let gaps = table.friction.windows(2).zip(table.preload.windows(2));
+        for (i, (laws, preloads)) in gaps.enumerate() {
+            for (j, (own, next)) in laws[0].iter().zip(&laws[1]).enumerate() {
+                let Some((share, outside)) = own.outside_towards(next) else {
+                    continue;
+                };
+                let Some(parameter) = own.law.parameters.get(outside.parameter) else {
+                    continue;
+                };
+                let (low, high) = (preloads[0], preloads[1]);
+                self.problems.push(JointProblem::OutsideBetween {
+                    path: format!("joint.over_preload.friction[{i}][{j}].{}", parameter.key),
+                    law: own.law.name,
+                    low,
+                    high,
+                    between: low + share * (high - low),
+                    expected: outside.expected,
+                });
+            }
+        }
     }
 
     fn higher(&mut self, terms: &HigherTerms) {

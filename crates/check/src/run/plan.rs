@@ -140,7 +140,7 @@ impl Plan {
             .facts
             .push("loads: those of resources/joint.json at every communication point".to_owned());
         if let [coarse, fine] = balances.as_slice() {
-            let balance = judge::refined(coarse, fine);
+            let balance = judge::refined(coarse, fine, joint.laws_with_memory().next().is_some());
             report.findings.extend(balance_finding(&balance));
             report.balance = Some(balance);
         }

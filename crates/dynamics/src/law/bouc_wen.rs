@@ -192,6 +192,14 @@ impl<N: Number> Law<N> for BoucWen<N> {
         N::from(0.5) * load * load / self.stiffness
     }
 
+    fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &[M], r: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        let elongation = self.load(memory, r, N::ZERO) / self.stiffness;
+        N::from(0.5) * springs.stiffness * elongation * elongation
+    }
+
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         if !self.is_there() {
             return N::ZERO;

@@ -76,6 +76,11 @@ impl<N: Number> Law<N> for Dahl<N> {
             .map_or(N::ZERO, |flow| flow.stored_energy(memory, r))
     }
 
+    fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &[M], r: N) -> N {
+        self.flow()
+            .map_or(N::ZERO, |flow| flow.energy_in(springs.stiffness, memory, r))
+    }
+
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         self.flow()
             .map_or(N::ZERO, |flow| flow.dissipated_power(memory, r, velocity))

@@ -103,6 +103,29 @@ impl<N: Number> DofLaws<N> {
         Self::new(only)
     }
 
+    /// These laws, with parameters at this share of the way to those of others; a law that either has is there.
+    #[must_use]
+    pub fn towards(&self, others: &Self, share: N) -> Self {
+        let rest = N::from(1.0) - share;
+        Self {
+            parameters: std::array::from_fn(|n| {
+                rest * self.parameters[n] + share * others.parameters[n]
+            }),
+            present: self.present | others.present,
+        }
+    }
+
+    /// Change of the parameters per unit on the way to those of others, of which there are `per_unit` ways.
+    #[must_use]
+    pub fn secant(&self, others: &Self, per_unit: N) -> Self {
+        Self {
+            parameters: std::array::from_fn(|n| {
+                per_unit * (others.parameters[n] - self.parameters[n])
+            }),
+            present: self.present | others.present,
+        }
+    }
+
     /// These laws and others, of which none is of the same kind.
     #[must_use]
     pub fn beside(&self, others: &Self) -> Self {

@@ -8,13 +8,14 @@ use super::Corner;
 use crate::{elementary, number::Number};
 
 /// Places of what is remembered: the load, and beside what is a variable the place and the direction of the latest
-/// motion.
+/// motion, and the stiffness E₁ then.
 const LOAD: usize = 0;
 const PLACE: usize = 1;
 const DIRECTION: usize = 2;
+const STIFFNESS: usize = 3;
 
 /// Numbers that are no variables.
-pub(super) const HIDDEN: usize = 2;
+pub(super) const HIDDEN: usize = 3;
 
 /// What the parameters of a law give.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +54,7 @@ impl<N: Number> Flow<N> {
             _ if number(DIRECTION).value() < 0.0 => -1.0,
             _ => 1.0,
         };
-        let before = N::from(sign) * number(LOAD) / self.limit;
+        let before = N::from(sign) * self.load_of_now(memory) / self.limit;
         // a limit that was lowered meanwhile holds at once
         let before = match before.value() {
             w if w > 1.0 => one,
@@ -69,6 +70,16 @@ impl<N: Number> Flow<N> {
             logarithm,
             length,
         }
+    }
+
+    /// The remembered load at the present stiffness: the elongation stays where that changes.
+    fn load_of_now<M: Number + Into<N>>(&self, memory: &[M]) -> N {
+        let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
+        let (load, then): (N, N) = (number(LOAD), number(STIFFNESS));
+        if then.is_zero() || (then - self.stiffness).is_zero() {
+            return load;
+        }
+        load * self.stiffness / then
     }
 
     /// By how much s w grows where `left` is left to the limit, over a way of this length in p_m/E₁; and the logarithm
@@ -125,6 +136,12 @@ impl<N: Number> Flow<N> {
         N::from(0.5) * load * load / self.stiffness
     }
 
+    /// Energy (J) of its elongation at r in a spring of this stiffness.
+    pub(super) fn energy_in<M: Number + Into<N>>(&self, stiffness: N, memory: &[M], r: N) -> N {
+        let elongation = self.load(memory, r) / self.stiffness;
+        N::from(0.5) * stiffness * elongation * elongation
+    }
+
     /// Power that it turns into heat at r.
     pub(super) fn dissipated_power<M: Number + Into<N>>(
         &self,
@@ -145,8 +162,12 @@ impl<N: Number> Flow<N> {
 
     /// Moves the memory on to r, and returns the heat, J: of what a lower limit no longer holds, and of the way.
     pub(super) fn commit(&self, memory: &mut [N], r: N) -> f64 {
-        if memory.len() <= HIDDEN {
+        if memory.len() <= DIRECTION {
             return 0.0;
+        }
+        memory[LOAD] = self.load_of_now(memory);
+        if let Some(stiffness) = memory.get_mut(STIFFNESS) {
+            *stiffness = self.stiffness;
         }
         let released = release(memory, self.limit, self.stiffness);
         if r.value() == memory[PLACE].value() {
@@ -192,10 +213,19 @@ pub(super) fn release<N: Number>(memory: &mut [N], limit: N, stiffness: N) -> f6
 
 /// The same where nothing presses any more: all goes, and the joint moves on to r without load.
 pub(super) fn release_all<N: Number>(memory: &mut [N], stiffness: N, r: N) -> f64 {
-    if memory.len() <= HIDDEN || stiffness.value() <= 0.0 {
+    if memory.len() <= DIRECTION {
         return 0.0;
     }
     memory[PLACE] = r;
+    if stiffness.value() <= 0.0 {
+        memory[LOAD] = N::ZERO;
+        return 0.0;
+    }
+    if let Some(then) = memory.get(STIFFNESS).copied()
+        && !then.is_zero()
+    {
+        memory[LOAD] = memory[LOAD] * stiffness / then;
+    }
     release(memory, N::ZERO, stiffness)
 }
 

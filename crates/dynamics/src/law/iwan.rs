@@ -160,6 +160,18 @@ impl<N: Number> Law<N> for Iwan<N> {
         stored - reversals.owed().into()
     }
 
+    fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &[M], r: N) -> N {
+        // wherever the joint has been, its points tell elongations as well
+        let reversals = Reversals::of(memory);
+        match reversals.all_elongations(self) {
+            Some(sliders) => {
+                let way = r - reversals.place().into();
+                Strength::of(self).stored_in(&Strength::of(springs), &sliders, way)
+            }
+            None => N::ZERO,
+        }
+    }
+
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         let reversals = Reversals::of(memory);
         let rate = velocity.value();
@@ -194,7 +206,7 @@ impl<N: Number> Law<N> for Iwan<N> {
     }
 
     fn used(&self, memory: &[N]) -> usize {
-        reversals::used(memory, self.slip_force)
+        reversals::used(memory, self)
     }
 
     fn is_finite(&self, memory: &[N]) -> bool {

@@ -56,22 +56,28 @@ impl<N: Number> Jenkins<N> {
 }
 
 impl<N: Number> Jenkins<N> {
-    /// Mean slip force from where it begins to slip on the way to r, on which slip force and motion change at the same pace.
-    /// Known are the slider's place before, the slip force then and where the joint was.
-    fn mean_slip_force(&self, known: Option<[f64; 3]>, r: f64, sign: f64) -> f64 {
-        let now = self.slip_force.value();
+    /// Heat (J) of the way to r, on which it slips so far and slip force and motion change at the same pace. Known are the
+    /// slider's place before, the slip force then and where the joint was.
+    fn heat(&self, known: Option<[f64; 3]>, r: f64, sign: f64, slipped: f64) -> f64 {
+        let (stiffness, now) = (self.stiffness.value(), self.slip_force.value());
         let has_moved = |known: &[f64; 3]| known.iter().any(|&number| number != 0.0);
         let Some([slider, before, place]) = known.filter(has_moved) else {
-            return now;
+            return now * slipped;
         };
         if before == now {
-            return now;
+            return now * slipped;
         }
         // e₀ + t Δr = h/k with h = h₀ + t Δh
-        let load = |at: f64| sign * self.stiffness.value() * (at - slider);
+        let load = |at: f64| sign * stiffness * (at - slider);
         let (short, beyond) = (before - load(place), load(r) - now);
+        if short < 0.0 {
+            // a stiffness that has grown first takes the load of what was held beyond the slip force: ½ (k e₀ + h₀)(e₀ − h₀/k)
+            let at_once = (-short / stiffness).min(slipped);
+            return 0.5 * (load(place) + before) * at_once
+                + 0.5 * (before + now) * (slipped - at_once);
+        }
         let begins = (short / (short + beyond)).clamp(0.0, 1.0);
-        now - 0.5 * (1.0 - begins) * (now - before)
+        (now - 0.5 * (1.0 - begins) * (now - before)) * slipped
     }
 }
 
@@ -124,6 +130,14 @@ impl<N: Number> Law<N> for Jenkins<N> {
         }
     }
 
+    fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &[M], r: N) -> N {
+        let elongation = match self.bearing(memory, r) {
+            Bearing::Sticks(elongation) => elongation,
+            Bearing::Slips(sign) => N::from(sign) * self.slip_force / self.stiffness,
+        };
+        N::from(0.5) * springs.stiffness * elongation * elongation
+    }
+
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         // h |ṙ| while it moves on at the slip force, where a commit has left it, or beyond
         let elongation = r.value() - slider::<N, M>(memory).value();
@@ -142,6 +156,11 @@ impl<N: Number> Law<N> for Jenkins<N> {
         if let Some([_, slip_force, place]) = memory.first_chunk_mut() {
             (*slip_force, *place) = (self.slip_force, r);
         }
+        if self.stiffness.value() <= 0.0 {
+            // nothing bears, so that nothing is elongated when something does again
+            memory.iter_mut().take(1).for_each(|slider| *slider = r);
+            return 0.0;
+        }
         let (Bearing::Slips(sign), Some(slider)) = (bearing, memory.first_mut()) else {
             return 0.0;
         };
@@ -149,7 +168,7 @@ impl<N: Number> Law<N> for Jenkins<N> {
         let place = r - N::from(sign) * self.slip_force / self.stiffness;
         let slipped = (place - *slider).value().abs();
         *slider = place;
-        self.mean_slip_force(known, r.value(), sign) * slipped
+        self.heat(known, r.value(), sign, slipped)
     }
 
     fn corners(&self, memory: &[f64], _: f64, tell: &mut dyn FnMut(Corner)) {

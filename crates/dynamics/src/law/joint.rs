@@ -1,7 +1,7 @@
 //! The whole law of the massless joint: the linear one, and on each relative DOF the laws beside it.
 
 use super::{
-    DOF_AT_REST, DOF_PARAMETER_COUNT, Declaration, DofLaws, DofMemory, INNER_COUNT, Linear,
+    DOF_AT_REST, DOF_PARAMETER_COUNT, Declaration, DofLaws, DofMemory, INNER_COUNT, Law, Linear,
     Outside, Polynomial,
 };
 use crate::{
@@ -97,6 +97,23 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
                 return sum;
             }
             sum + self.on[i].stored_energy(&memory[i], r[i])
+        })
+    }
+
+    /// What the elongations of laws that remember `memory` would store in the springs of these laws, J, at the relative
+    /// displacement r: the same joint at another preload.
+    #[must_use]
+    pub fn energy_in<M: Number + Into<N>>(
+        &self,
+        springs: &Self,
+        memory: &JointMemory<D, M>,
+        r: &[N; D],
+    ) -> N {
+        (0..D).fold(N::ZERO, |sum, i| {
+            if !self.on[i].have_memory() {
+                return sum;
+            }
+            sum + self.on[i].energy_in(&springs.on[i], &memory[i], r[i])
         })
     }
 
@@ -221,6 +238,58 @@ impl<const D: usize> JointLaw<D> {
     #[must_use]
     pub fn with_change(&self, change: &Self) -> JointLaw<D, Dual<1>> {
         Self::each([self, change], |[value, change]| Dual::new(value, [change]))
+    }
+
+    /// Power (W) that the joint's springs take up at the relative displacement r because its law changes at this rate, with
+    /// the elongations of laws that remember `memory` held.
+    #[must_use]
+    pub fn power_of_change(&self, rate: &Self, memory: &JointMemory<D>, r: &[f64; D]) -> f64 {
+        // ∂U/∂t at constant r = ½ rᵀ (dK/dt) r + ¼ Σ (dk3/dt) r⁴: U is linear in these coefficients
+        let springs = rate.linear.stored_energy(r);
+        let springs = (0..D).fold(springs, |sum, i| {
+            sum + rate.on[i].polynomial().stored_energy::<f64>(&[], r[i])
+        });
+        if !rate.has_memory() {
+            return springs;
+        }
+        // ½ Σ (dk/dt) e²
+        let own = Self::each([self], |[value]| Dual::<1>::from(value));
+        let of_sliders = own.energy_in(&self.with_change(rate), memory, &r.map(Dual::from));
+        springs + of_sliders.change[0]
+    }
+
+    /// First-order change of that part of [`JointLaw::power_of_change`] which laws that remember have, along the change of this
+    /// law and of r at the same rate.
+    #[must_use]
+    pub fn change_of_slider_power(
+        &self,
+        law_change: &Self,
+        rate: &Self,
+        memory: &JointMemory<D>,
+        [r, r_change]: [&[f64; D]; 2],
+    ) -> f64 {
+        /// Part of the springs by which their change is taken: its square is the error.
+        const PART: f64 = 1e-5;
+        if !rate.has_memory() {
+            return 0.0;
+        }
+        let own = self.with_change(law_change);
+        let r = std::array::from_fn(|i| Dual::new(r[i], [r_change[i]]));
+        let largest = |law: &Self| {
+            let all = law.on.iter().flat_map(DofLaws::parameters);
+            all.fold(0.0, |most: f64, number| most.max(number.abs()))
+        };
+        // of springs so much stiffer and softer
+        let step = PART * largest(self) / largest(rate);
+        if !(step > 0.0 && step.is_finite()) {
+            return 0.0;
+        }
+        let [above, below] = [step, -step].map(|step| {
+            let springs = Self::each([self, rate], |[own, rate]| own + step * rate);
+            let springs = springs.with_change(law_change);
+            own.energy_in(&springs, memory, &r).change[0]
+        });
+        (above - below) / (2.0 * step)
     }
 
     /// Every coefficient times `factor`: the change of the law when what it depends on changes by `factor`.

@@ -224,6 +224,15 @@ impl<N: Number> Law<N> for LuGre<N> {
         N::from(0.5) * self.stiffness * deflection * deflection
     }
 
+    fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &[M], r: N) -> N {
+        if !self.is_there() {
+            return N::ZERO;
+        }
+        let velocity = memory.get(VELOCITY).map_or(N::ZERO, |&rate| rate.into());
+        let deflection = self.way(memory, r, velocity).deflection;
+        N::from(0.5) * springs.stiffness * deflection * deflection
+    }
+
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         if !self.is_there() {
             return N::ZERO;
@@ -310,6 +319,27 @@ impl<N: Number> Law<N> for LuGre<N> {
             ),
             () => None,
         }
+    }
+
+    fn outside_towards(&self, other: &Self) -> Option<(f64, Outside)> {
+        let [from, to] = [self, other].map(|law| law.parameters().map(Number::value));
+        let at = |share: f64| {
+            let own: [N; 6] =
+                std::array::from_fn(|k| N::from((1.0 - share) * from[k] + share * to[k]));
+            Self::new(&own)
+        };
+        // q = σ₂ F_c − σ₁ (F_s − F_c) is a parabola over the share, convex where it can be less between than at the ends
+        let q = |share: f64| {
+            let [_, s1, s2, fc, fs, _] = at(share).parameters().map(Number::value);
+            s2 * fc - s1 * (fs - fc)
+        };
+        let (first, middle, last) = (q(0.0), q(0.5), q(1.0));
+        let curvature = 2.0 * (first - 2.0 * middle + last);
+        let share = 0.5 - 0.5 * (last - first) / curvature;
+        if !(curvature > 0.0 && share > 0.0 && share < 1.0) {
+            return None;
+        }
+        at(share).outside().map(|outside| (share, outside))
     }
 
     fn nonlinear_amplitude(&self, _: f64, _: f64) -> f64 {

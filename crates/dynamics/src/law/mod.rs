@@ -101,6 +101,12 @@ pub trait Law<N: Number>: Copy {
     /// Energy stored in its springs, J.
     fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N;
 
+    /// What its sliders' elongations at the relative displacement r would store in those of `springs`, J: the same law at another
+    /// preload. Springs that are not in the law's own parameters have no part of it.
+    fn energy_in<M: Number + Into<N>>(&self, _springs: &Self, _memory: &[M], _r: N) -> N {
+        N::ZERO
+    }
+
     /// Power that it turns into heat, W.
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N;
 
@@ -137,6 +143,12 @@ pub trait Law<N: Number>: Copy {
 
     /// The first of its parameters that is outside of the law's range, such that it is not passive or gives no load.
     fn outside(&self) -> Option<Outside> {
+        None
+    }
+
+    /// The same between this law and another one, both inside, at the share of the way that is told, where parameters go straight
+    /// from one to the other. Most ranges are convex, so that no way leaves them.
+    fn outside_towards(&self, _other: &Self) -> Option<(f64, Outside)> {
         None
     }
 

@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::{DofLaws, JointLaw};
+use super::{DofLaws, JointLaw, JointMemory};
 use crate::definiteness::is_positive_semidefinite;
 
 /// Halvings that find how much of a slope a matrix bears: as many as a double has digits.
@@ -71,11 +71,13 @@ pub struct JointOverPreload<const D: usize> {
     friction: Option<Friction<D>>,
 }
 
-/// Laws that remember, beside those of the table: what grows with the preload does so in proportion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Friction<const D: usize> {
-    on: [DofLaws; D],
-    nominal_n_m: f64,
+/// Laws that remember, beside the springs of the table.
+#[derive(Clone, Debug, PartialEq)]
+enum Friction<const D: usize> {
+    /// What grows with the preload does so in proportion.
+    Proportional { on: [DofLaws; D], nominal_n_m: f64 },
+    /// All parameters at each preload of the table; linear between them, as the ranges of laws are convex.
+    Table(Box<[[DofLaws; D]]>),
 }
 
 /// The joint at one preload of the table.
@@ -91,6 +93,8 @@ struct Knot<const D: usize> {
 struct Place<'a, const D: usize> {
     lower: &'a Knot<D>,
     upper: &'a Knot<D>,
+    /// Index of the upper one, 1 at the least.
+    index: usize,
     /// Distance of the knots, N·m.
     width_n_m: f64,
     /// Share of the way from the lower to the upper one.
@@ -144,16 +148,45 @@ impl<const D: usize> JointOverPreload<D> {
     pub fn with_friction(self, on: [DofLaws; D], nominal_n_m: f64) -> Self {
         let is_there = on.iter().any(|laws| !laws.are_none());
         Self {
-            friction: is_there.then_some(Friction { on, nominal_n_m }),
+            friction: is_there.then_some(Friction::Proportional { on, nominal_n_m }),
             ..self
         }
+    }
+
+    /// The joint with laws beside the springs of the table whose parameters are these at each preload of the table, and linear
+    /// between two of them.
+    ///
+    /// # Errors
+    ///
+    /// [`TableDefect::NotFinite`] for a parameter that is no number, [`TableDefect::TooFew`] where there are not as many
+    /// entries as the table has preloads.
+    pub fn with_friction_table(self, entries: &[[DofLaws; D]]) -> Result<Self, TableDefect> {
+        if entries.len() != self.knots.len() {
+            let found = entries.len();
+            return Err(TableDefect::TooFew { found });
+        }
+        let is_finite = |on: &[DofLaws; D]| {
+            let mut parameters = on.iter().flat_map(DofLaws::parameters);
+            parameters.all(|parameter| parameter.is_finite())
+        };
+        if let Some(index) = entries.iter().position(|on| !is_finite(on)) {
+            return Err(TableDefect::NotFinite { index });
+        }
+        let is_there = entries.iter().flatten().any(|laws| !laws.are_none());
+        Ok(Self {
+            friction: is_there.then(|| Friction::Table(entries.into())),
+            ..self
+        })
     }
 
     /// Whether the joint remembers its motion.
     #[must_use]
     pub fn has_memory(&self) -> bool {
-        let friction = self.friction.as_ref();
-        friction.is_some_and(|friction| friction.on.iter().any(DofLaws::have_memory))
+        match &self.friction {
+            None => false,
+            Some(Friction::Proportional { on, .. }) => on.iter().any(DofLaws::have_memory),
+            Some(Friction::Table(entries)) => entries.iter().flatten().any(DofLaws::have_memory),
+        }
     }
 
     /// First and last preload of the table, N·m.
@@ -198,16 +231,22 @@ impl<const D: usize> JointOverPreload<D> {
     #[must_use]
     pub fn law(&self, preload_n_m: f64) -> JointLaw<D> {
         let springs = self.springs(preload_n_m);
-        let Some(friction) = &self.friction else {
-            return springs;
-        };
-        let [first, last] = self.range_n_m();
-        let share = preload_n_m.clamp(first, last) / friction.nominal_n_m;
-        JointLaw {
-            on: std::array::from_fn(|i| {
-                springs.on[i].beside(&friction.on[i].at_share_of_preload(share))
-            }),
+        let beside = |of: &dyn Fn(usize) -> DofLaws| JointLaw {
+            on: std::array::from_fn(|i| springs.on[i].beside(&of(i))),
             ..springs
+        };
+        match &self.friction {
+            None => springs,
+            Some(Friction::Proportional { on, nominal_n_m }) => {
+                let [first, last] = self.range_n_m();
+                let share = preload_n_m.clamp(first, last) / nominal_n_m;
+                beside(&|i| on[i].at_share_of_preload(share))
+            }
+            Some(Friction::Table(entries)) => {
+                let place = self.place(preload_n_m);
+                let [low, high] = place.entries(entries);
+                beside(&|i| low[i].towards(&high[i], place.share))
+            }
         }
     }
 
@@ -227,8 +266,8 @@ impl<const D: usize> JointOverPreload<D> {
         })
     }
 
-    /// Change of the table's law with the preload, per N·m, at a preload (N·m); zero beyond the table. No spring beside the
-    /// table depends on the preload.
+    /// Change of the table's springs with the preload, per N·m, at a preload (N·m); zero beyond the table. Those of friction
+    /// have no part of it: [`JointOverPreload::spring_change`].
     #[must_use]
     pub fn slope(&self, preload_n_m: f64) -> JointLaw<D> {
         let place = self.place(preload_n_m);
@@ -255,13 +294,51 @@ impl<const D: usize> JointOverPreload<D> {
         if !(first..=last).contains(&preload_n_m) {
             return springs;
         }
-        let growth = |laws: &DofLaws| {
-            let own = laws.with_only(|parameter| parameter.grows_with_preload);
-            own.at_share_of_preload(friction.nominal_n_m.recip())
-        };
-        JointLaw {
-            on: std::array::from_fn(|i| springs.on[i].beside(&growth(&friction.on[i]))),
+        let beside = |of: &dyn Fn(usize) -> DofLaws| JointLaw {
+            on: std::array::from_fn(|i| springs.on[i].beside(&of(i))),
             ..springs
+        };
+        match friction {
+            Friction::Proportional { on, nominal_n_m } => beside(&|i| {
+                let own = on[i].with_only(|parameter| parameter.grows_with_preload);
+                own.at_share_of_preload(nominal_n_m.recip())
+            }),
+            Friction::Table(entries) => {
+                let place = self.place(preload_n_m);
+                let [low, high] = place.entries(entries);
+                let per_n_m = place.width_n_m.recip();
+                beside(&|i| low[i].secant(&high[i], per_n_m))
+            }
+        }
+    }
+
+    /// The same as far as springs change: what [`JointLaw::power_of_change`] takes. In proportion, friction changes no spring.
+    #[must_use]
+    pub fn spring_change(&self, preload_n_m: f64) -> JointLaw<D> {
+        match &self.friction {
+            Some(Friction::Table(_)) => self.change(preload_n_m),
+            _ => self.slope(preload_n_m),
+        }
+    }
+
+    /// Energy (J) that a preload which goes in place from one (N·m) to another puts into the springs, at the relative displacement
+    /// r, with the elongations of laws that remember `memory` held. What slips then is heat of its own.
+    #[must_use]
+    pub fn work_of_preload(
+        &self,
+        [from_n_m, to_n_m]: [f64; 2],
+        memory: &JointMemory<D>,
+        r: &[f64; D],
+    ) -> f64 {
+        // U(r; p⁺) − U(r; p⁻)
+        let springs =
+            self.springs(to_n_m).stored_energy(r) - self.springs(from_n_m).stored_energy(r);
+        match &self.friction {
+            Some(Friction::Table(_)) => {
+                let [from, to] = [from_n_m, to_n_m].map(|preload_n_m| self.law(preload_n_m));
+                springs + (from.energy_in(&to, memory, r) - from.energy_in(&from, memory, r))
+            }
+            _ => springs,
         }
     }
 
@@ -295,6 +372,7 @@ impl<const D: usize> JointOverPreload<D> {
         Place {
             lower,
             upper,
+            index,
             width_n_m,
             share: (preload - lower.preload_n_m) / width_n_m,
             is_within: preload == preload_n_m,
@@ -303,6 +381,11 @@ impl<const D: usize> JointOverPreload<D> {
 }
 
 impl<const D: usize> Place<'_, D> {
+    /// What a list beside the table has at the lower and at the upper knot.
+    fn entries<'e>(&self, list: &'e [[DofLaws; D]]) -> [&'e [DofLaws; D]; 2] {
+        [self.index - 1, self.index].map(|index| &list[index])
+    }
+
     /// A function of value and slope at the lower, then at the upper knot, of each coefficient.
     #[inline]
     fn combined(&self, of: impl Fn([f64; 4]) -> f64) -> JointLaw<D> {

@@ -115,6 +115,18 @@ macro_rules! dof_laws {
                 sum
             }
 
+            /// What the elongations of the laws that remember would store in the springs of these laws, J: the same ones at
+            /// another preload.
+            #[must_use]
+            pub fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &DofMemory<M>, r: N) -> N {
+                let mut sum = N::ZERO;
+                $(for place in self.own(&PLACES.$name) {
+                    let [law, springs] = [self, springs].map(|laws| $law::new(laws.of(place)));
+                    sum = sum + law.energy_in(&springs, part(memory, place), r);
+                })+
+                sum
+            }
+
             /// Power turned into heat, W.
             #[inline]
             #[must_use]
@@ -304,6 +316,19 @@ macro_rules! dof_laws {
                 $(for place in self.own(&PLACES.$name) {
                     if let Some(outside) = $law::new(self.of(place)).outside() {
                         return Some((place.law(), outside));
+                    }
+                })+
+                None
+            }
+
+            /// The first parameter that leaves the range of its law on the straight way to those of other laws, with the share of
+            /// the way.
+            #[must_use]
+            pub fn outside_towards(&self, others: &Self) -> Option<(f64, &'static Declaration, Outside)> {
+                $(for place in self.own(&PLACES.$name) {
+                    let [law, other] = [self, others].map(|laws| $law::new(laws.of(place)));
+                    if let Some((share, outside)) = law.outside_towards(&other) {
+                        return Some((share, place.law(), outside));
                     }
                 })+
                 None

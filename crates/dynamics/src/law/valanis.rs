@@ -119,6 +119,13 @@ impl<N: Number> Law<N> for Valanis<N> {
         N::from(0.5) * self.slip_stiffness * r * r + slider
     }
 
+    fn energy_in<M: Number + Into<N>>(&self, springs: &Self, memory: &[M], r: N) -> N {
+        let slider = self.flow().map_or(N::ZERO, |flow| {
+            flow.energy_in(springs.stiffness - springs.slip_stiffness, memory, r)
+        });
+        N::from(0.5) * springs.slip_stiffness * r * r + slider
+    }
+
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         self.flow()
             .map_or(N::ZERO, |flow| flow.dissipated_power(memory, r, velocity))

@@ -169,14 +169,13 @@ impl<const D: usize> System<'_, D> {
         for (level, loads) in levels.iter().enumerate() {
             let conditions = self.conditions(level, loads);
             if let Some(before) = level.checked_sub(1) {
-                // the preload jumps: U(r; p⁺) − U(r; p⁻)
-                let r = counted.state.a.relative_to(&counted.state.b).displacement;
-                let of = |level| self.laws.springs(level).stored_energy(&r);
-                counted.passed.preload += of(level) - of(before);
-                // and what holds less slips
-                if matches!(self.laws, Laws::Table { .. }) {
-                    let law = &conditions.lap.joint;
+                // the preload jumps, and what holds less slips
+                if let Laws::Table { table, .. } = self.laws {
+                    let preloads_n_m = [before, level].map(|level| self.laws.preload_n_m(level));
                     let relative = counted.state.relative();
+                    counted.passed.preload +=
+                        table.work_of_preload(preloads_n_m, &memory, &relative.displacement);
+                    let law = &conditions.lap.joint;
                     counted.passed.dissipated += law.commit(&mut memory, &relative);
                 }
             }
@@ -317,7 +316,7 @@ fn output<const D: usize>(
         "energy.dissipated" => Some(passed.dissipated),
         "energy.preload" => Some(passed.preload),
         "power.dissipated" => Some(lap.dissipated_power(memory, state)),
-        "power.supplied" => Some(conditions.powers(state).supplied),
+        "power.supplied" => Some(conditions.powers(memory, state).supplied),
         // the preload is held
         "power.preload" => Some(0.0),
         _ => of_motions(name, dofs, [&state.a, &state.b])

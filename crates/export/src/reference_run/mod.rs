@@ -144,14 +144,6 @@ impl<const D: usize> Laws<D> {
         }
     }
 
-    /// The springs of a level, without what remembers.
-    fn springs(&self, level: usize) -> JointLaw<D> {
-        match self {
-            Self::Constant(law) => *law,
-            Self::Table { table, .. } => table.springs(self.preload_n_m(level)),
-        }
-    }
-
     /// Law of a level.
     fn at(&self, level: usize) -> JointLaw<D> {
         match self {

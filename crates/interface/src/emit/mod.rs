@@ -63,6 +63,21 @@ impl Interfaces {
             "const JOINTS_OVER_PRELOAD: u32 = {};",
             Joints::OVER_PRELOAD.bits()
         );
+        line!(
+            source,
+            "/// Joints over the preload whose laws with memory are a table."
+        );
+        line!(
+            source,
+            "const JOINTS_WITH_FRICTION_TABLE: u32 = {};",
+            Joints::FRICTION_TABLE.bits()
+        );
+        line!(source, "/// What is a parameter of a law with memory.");
+        line!(
+            source,
+            "const FRICTION_PARAMETERS: u32 = {};",
+            Joints::FRICTION_PARAMETERS.bits()
+        );
         memory_laws(&mut source, &self.memory_laws);
         references::write(&mut source, self);
         for (name, interface, expanded) in self.both() {

@@ -134,7 +134,7 @@ pub(super) fn law_memory(filling: &Filling<'_>) -> Vec<LawMemory> {
                     declared_type: of_memory(quantity, dof.kind),
                     scope: Scope {
                         rows: vec![Rows::of(&[row])],
-                        joints: Joints::of_law(law, filling.laws),
+                        joints: Joints::with_memory_of(law),
                     },
                     rate: remembered.rate.map(|rate| InnerRate {
                         name: declaration.variable(rate.symbol, dof.name),

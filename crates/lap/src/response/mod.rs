@@ -31,8 +31,8 @@ pub use fit::{AtLimit, Fit};
 pub use model::{Model, ResponseUnknown, Values};
 pub use passive::Limit;
 pub use prediction::{
-    BackbonePrediction, Expected, Fall, PointPrediction, Prediction, Resonance, ResonanceInterval,
-    measured_resonance, predicted_resonance,
+    BackbonePrediction, BetweenRuns, Expected, Fall, PointPrediction, Prediction, Resonance,
+    ResonanceInterval, RunScatter, measured_resonance, predicted_resonance,
 };
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};

@@ -1,5 +1,6 @@
 //! Phase resonance of a run, measured and predicted at the force that was measured there.
 
+mod between;
 mod curve;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -12,6 +13,7 @@ use super::data::{SineRun, Use, wrapped};
 use super::fit::Fit;
 use super::model::{Model, Values};
 
+pub use self::between::{BetweenRuns, RunScatter};
 pub(super) use self::curve::Spread;
 pub use self::curve::{BackbonePrediction, Expected, Fall, PointPrediction};
 

@@ -10,7 +10,7 @@ use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
-use super::prediction::{BackbonePrediction, Prediction, Spread};
+use super::prediction::{BackbonePrediction, BetweenRuns, Prediction, Spread};
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
 use crate::error::LapError;
@@ -70,6 +70,8 @@ pub struct LapResponse {
     pub predictions: Vec<Prediction>,
     /// Backbones and free decays beside the model's.
     pub backbones: Vec<BackbonePrediction>,
+    /// What those that were fitted differ by as a whole; `None` where fewer than two tell it.
+    pub between_runs: Option<BetweenRuns>,
     /// Largest amplitude of the relative motion that was fitted, m.
     pub amplitude_m: f64,
     /// Where the joint comes from.
@@ -137,10 +139,8 @@ impl LapResponse {
             factor,
             quantile,
         };
-        let of_backbones = study.backbones.iter();
-        let of_backbones =
-            of_backbones.map(|run| BackbonePrediction::of(&model, &fit, run, &spread));
-        let of_backbones = of_backbones.collect();
+        let (of_backbones, between_runs) =
+            BackbonePrediction::of_all(&model, &fit, &study.backbones, &spread);
         let role = |used: Use, what: &str| match used {
             Use::Fit => what.to_owned(),
             Use::Predict => format!("{what}, predicted"),
@@ -176,6 +176,7 @@ impl LapResponse {
             starts: chosen.starts,
             predictions,
             backbones: of_backbones,
+            between_runs,
             amplitude_m,
         })
     }

@@ -43,6 +43,8 @@ pub(super) fn section(found: &LapResponse) -> String {
         .concat()
     });
     let rows: Vec<String> = rows.collect();
+    let between = found.between_runs.as_ref();
+    let between = between.map_or_else(String::new, |own| format!("<p>{}</p>\n", own.words()));
     let header = columns(
         "Run||Frequency, Hz r.m.s.|Damping, r.m.s.|Within 95 %|Falls in, s|Model, s|Expected, 95 %",
     );
@@ -64,8 +66,13 @@ pub(super) fn section(found: &LapResponse) -> String {
     });
     format!(
         "<h2>Backbones and decays</h2>\n<p>Measured, and of the model at the amplitudes that were measured; of a decay as the model’s own \
-         decay is read. A run that was left out has intervals: the deviations of the unknowns, the noise of the run, and the errors of \
-         its amplitudes. Neither a law that is wrong nor what makes runs differ as a whole is in them.</p>\n{}{}",
+         decay is read. A run that was left out has intervals: the deviations of the unknowns, the noise of the run, the errors of its \
+         amplitudes{}. A law that is wrong beyond the amplitudes that were fitted is not in them.</p>\n{between}{}{}",
+        match between.is_empty() {
+            true =>
+                "; what makes runs differ as a whole is told by several fitted runs at the same amplitudes, and is not in them here",
+            false => ", and what runs differ by as a whole",
+        },
         table(&header, &rows),
         pictures.collect::<String>()
     )

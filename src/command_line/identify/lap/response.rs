@@ -70,6 +70,7 @@ pub(in super::super) fn run(
             "models": found.comparison,
             "predictions": found.predictions,
             "backbones": found.backbones,
+            "between_runs": found.between_runs,
             "warnings": warnings,
         });
         return print(&serde_json::to_string_pretty(&value)?);
@@ -245,8 +246,10 @@ fn beside_backbones(found: &LapResponse) -> String {
         }
         table.row(cells);
     }
+    let between = found.between_runs.as_ref();
+    let between = between.map_or_else(String::new, |own| format!("{}\n", own.words()));
     format!(
-        "\nbackbones and decays beside the model, root mean square\n{}",
+        "\nbackbones and decays beside the model, root mean square\n{}{between}",
         table.render()
     )
 }

@@ -11,7 +11,7 @@ use super::{
     elongations::Elongations,
     strength::Strength,
 };
-use crate::law::Corner;
+use crate::law::{Corner, Law};
 use crate::number::Number;
 
 /// Reversal points that are kept.
@@ -118,22 +118,41 @@ impl<'m, M: Number> Reversals<'m, M> {
         Self { numbers: memory }
     }
 
-    /// The sliders' elongations, where their strength has changed since the joint has moved: then points do not tell them.
+    /// The sliders' elongations, where their strength or their springs have changed since the joint has moved: then points do not tell them.
     #[inline]
     pub(super) fn elongations<N: Number>(&self, law: &Iwan<N>) -> Option<Elongations<N>>
     where
         M: Into<N>,
     {
-        let known: N = self.number(PARAMETERS).into();
-        let is_same = (law.slip_force - known).is_zero();
-        if is_same && self.number(ELONGATED).is_zero() {
+        let known: [N; 4] = std::array::from_fn(|k| self.number(PARAMETERS + k).into());
+        let parameters = law.parameters();
+        let is_same = |k: usize| (parameters[k] - known[k]).is_zero();
+        let are_same = is_same(0) & is_same(1) & is_same(2) & is_same(3);
+        if are_same && self.number(ELONGATED).is_zero() {
             return None;
         }
-        self.changed_elongations(law, known)
+        self.changed_elongations(law, &known)
+    }
+
+    /// The sliders' elongations, whether their strength has changed or not; `None` where nothing has ever moved.
+    pub(super) fn all_elongations<N: Number>(&self, law: &Iwan<N>) -> Option<Elongations<N>>
+    where
+        M: Into<N>,
+    {
+        let known: [N; 4] = std::array::from_fn(|k| self.number(PARAMETERS + k).into());
+        let has_moved = self.number(PLACE).value() != 0.0 || !self.points().is_empty();
+        match has_moved || !self.number(ELONGATED).is_zero() {
+            true => self.changed_elongations(law, &known),
+            false => law.is_there().then(Elongations::at_rest),
+        }
     }
 
     #[cold]
-    fn changed_elongations<N: Number>(&self, law: &Iwan<N>, slip_force: N) -> Option<Elongations<N>>
+    fn changed_elongations<N: Number>(
+        &self,
+        law: &Iwan<N>,
+        known: &[N; 4],
+    ) -> Option<Elongations<N>>
     where
         M: Into<N>,
     {
@@ -141,7 +160,7 @@ impl<'m, M: Number> Reversals<'m, M> {
             return Some(Elongations::remembered(self.numbers));
         }
         let has_moved = self.number(PLACE).value() != 0.0 || !self.points().is_empty();
-        let span = Strength::of(&Iwan { slip_force, ..*law }).span;
+        let span = Strength::of(&Iwan::new(known)).span;
         (has_moved && law.is_there() && span.value() > 0.0)
             .then(|| Elongations::of_points(self.points(), self.place(), span))
     }
@@ -366,9 +385,12 @@ impl Branch {
 }
 
 /// How many numbers are in use, or are after one commit, which may add a point or find that the sliders' strength has changed.
-pub(super) fn used<N: Number>(memory: &[N], slip_force: N) -> usize {
+pub(super) fn used<N: Number>(memory: &[N], law: &Iwan<N>) -> usize {
     let number = |place: usize| memory.get(place).map_or(0.0, |number| number.value());
-    let has_points = number(ELONGATED) == 0.0 && number(PARAMETERS) == slip_force.value();
+    let parameters = law.parameters();
+    let is_same = |k: usize| number(PARAMETERS + k) == parameters[k].value();
+    let are_same = is_same(0) & is_same(1) & is_same(2) & is_same(3);
+    let has_points = number(ELONGATED) == 0.0 && are_same;
     match has_points {
         true => (POINTS + number(COUNT) as usize + 1).min(memory.len()),
         false => memory.len(),

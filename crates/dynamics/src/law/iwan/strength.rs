@@ -6,7 +6,7 @@ use super::{
     elongations::{Bearing, Elongations, Piece},
     reversals::{COUNT, ELONGATED, HIDDEN, OWED, PARAMETERS, PLACE, POINTS, TURN, pay},
 };
-use crate::number::Number;
+use crate::{law::Law, number::Number};
 
 /// The law, with φ_max as it is now.
 #[derive(Clone, Copy, Debug)]
@@ -75,10 +75,15 @@ impl<N: Number> Strength<N> {
 
     /// Energy in the springs after it: ½ ∫ e² dk.
     pub(super) fn stored(&self, sliders: &Elongations<N>, way: N) -> N {
+        self.stored_in(self, sliders, way)
+    }
+
+    /// The same in the springs of another strength, if these sliders bear the way.
+    pub(super) fn stored_in(&self, springs: &Self, sliders: &Elongations<N>, way: N) -> N {
         let mut sum = N::ZERO;
         sliders.pieces(way, self.span, |piece| {
             let elongations = piece.cut(self.span).map(|knot| knot.elongation);
-            sum = sum + self.integral(piece, elongations, elongations);
+            sum = sum + springs.integral(piece, elongations, elongations);
         });
         N::from(0.5) * sum
     }
@@ -135,10 +140,12 @@ pub(super) fn commit<N: Number>(
     }
     let place = memory[PLACE];
     let (now, way) = (Strength::of(law), r - place);
-    let before = Strength::of(&Iwan {
-        slip_force: memory[PARAMETERS],
-        ..*law
-    });
+    let known: [N; 4] = std::array::from_fn(|k| memory[PARAMETERS + k]);
+    let before = match Iwan::new(&known) {
+        // nothing has moved yet
+        known if !known.is_there() => now,
+        known => Strength::of(&known),
+    };
     let (mut after, heat) = if now.span.value() < before.span.value() {
         let moved = sliders.moved(way, before.span);
         let heat = before.heat_of_way(sliders, way) + now.heat_of_release(&moved);

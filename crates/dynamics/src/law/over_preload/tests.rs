@@ -1,7 +1,13 @@
 //! Reference values are SciPy's `PchipInterpolator` (1.17), and what the definitions ask for.
 
 use super::*;
-use crate::law::{Linear, Polynomial};
+use crate::{
+    law::{
+        Dahl, Iwan, Jenkins, Law, Linear, LuGre, Polynomial, Valanis,
+        trials::{assert_balance_between, way_over_preload},
+    },
+    random::Random,
+};
 
 type Matrix = [[f64; 2]; 2];
 
@@ -275,3 +281,108 @@ const REFERENCES: [(f64, [f64; 3], [f64; 3]); 6] = [
         [-406875.0, 0.07314138104838702, 299.4140625],
     ),
 ];
+
+/// Parameters at a low and at a high preload, at random about those of a law.
+fn ends(random: &mut Random, middle: &[f64]) -> [Vec<f64>; 2] {
+    let mut spread = || {
+        let each = middle.iter();
+        each.map(|own| own * (0.3 + 1.4 * random.unit())).collect()
+    };
+    [spread(), spread()]
+}
+
+/// Whatever motion and preload do, no heat is negative, and the energy of the springs is work, heat and what the preload does.
+#[test]
+fn energies_balance_where_springs_of_friction_follow_the_preload() {
+    let mut random = Random(77);
+    let mut released = [0.0; 4];
+    for _ in 0..25 {
+        let way = way_over_preload(&mut random, 25, 6e-3);
+        let [low, high] = ends(&mut random, &[5.0, 1000.0, -0.4, 0.5]).map(|own| Iwan::new(&own));
+        released[0] += assert_balance_between([&low, &high], &way, 1.0);
+        let [low, high] = ends(&mut random, &[1000.0, 5.0]).map(|own| Dahl::new(&own));
+        released[1] += assert_balance_between([&low, &high], &way, 1.0);
+        let [low, high] =
+            ends(&mut random, &[1500.0, 250.0, 5.0, 0.5]).map(|own| Valanis::new(&own));
+        released[2] += assert_balance_between([&low, &high], &way, 1.0);
+        let [low, high] = ends(&mut random, &[1000.0, 0.2, 1.0, 5.0, 9.0, 0.01]).map(|own| {
+            let mut law = LuGre::new(&own);
+            law.static_force = law.static_force.max(law.slip_force);
+            law.damping += 8.0 * law.bristle_damping;
+            law
+        });
+        // where its heat is more than rounding beside that of its damper
+        let way = way_over_preload(&mut random, 25, 5e-2);
+        released[3] += assert_balance_between([&low, &high], &way, 0.02);
+    }
+    assert!(released.iter().all(|&heat| heat > 1e-6), "{released:?}");
+}
+
+/// The range of LuGre's law is not convex: between two passive sets there may be an active one.
+#[test]
+fn a_law_that_leaves_its_range_between_two_preloads_is_found() {
+    let low = LuGre {
+        stiffness: 1e6,
+        bristle_damping: 10.0,
+        damping: 0.0,
+        slip_force: 10.0,
+        static_force: 10.0,
+        stribeck_velocity: 1e-3,
+    };
+    let high = LuGre {
+        bristle_damping: 0.0,
+        static_force: 30.0,
+        ..low
+    };
+    assert_eq!([low.outside(), high.outside()], [None, None]);
+    let (share, outside) = low.outside_towards(&high).unwrap();
+    // q = −10 (1 − t) · 20 t has its least value in the middle
+    assert!((share - 0.5).abs() < 1e-12, "{share}");
+    assert_eq!(outside.parameter, 2);
+    let damped = LuGre {
+        damping: 5.0,
+        ..low
+    };
+    let other = LuGre {
+        damping: 5.0,
+        ..high
+    };
+    assert_eq!(damped.outside_towards(&other), None);
+    assert!(DofLaws::from(low).outside_towards(&high.into()).is_some());
+}
+
+/// Between two preloads each parameter is linear, and its change is the difference over the gap.
+#[test]
+fn friction_follows_its_own_table() {
+    let sliders = [(1e6, 20.0), (1.5e6, 30.0), (2.2e6, 50.0), (2.3e6, 45.0)];
+    let entries = sliders.map(|(stiffness, slip_force)| {
+        [DofLaws::from(Jenkins {
+            stiffness,
+            slip_force,
+        })]
+    });
+    let table = || four_torques(Beyond::Held);
+    let joint = table().with_friction_table(&entries).unwrap();
+    let at = |preload| joint.law(preload).on[0].jenkins();
+    assert_eq!(at(4.0).stiffness, 1.5e6);
+    assert_eq!(
+        at(5.0),
+        Jenkins {
+            stiffness: 1.85e6,
+            slip_force: 40.0
+        }
+    );
+    assert_eq!(at(9.0).slip_force, 45.0);
+    let change = joint.spring_change(7.0).on[0].jenkins();
+    assert_eq!(
+        change,
+        Jenkins {
+            stiffness: 0.05e6,
+            slip_force: -2.5
+        }
+    );
+    assert_eq!(joint.change(9.0).on[0].jenkins().stiffness, 0.0);
+    assert_eq!(joint.law(5.0).linear, table().law(5.0).linear);
+    let found = table().with_friction_table(&entries[1..]);
+    assert_eq!(found, Err(TableDefect::TooFew { found: 3 }));
+}

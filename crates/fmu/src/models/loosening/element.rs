@@ -144,9 +144,8 @@ impl<const D: usize> Model for LooseningElement<D> {
     fn calculate_outputs(&self, values: &mut Values) {
         let law = self.law(values);
         set_outputs(values, &law);
-        let r = relative::<D>(values).displacement;
         ElementOverPreloadOutputs {
-            power_preload: preload_power(&self.table, values, &r),
+            power_preload: preload_power(&self.table, values, &relative(values)),
         }
         .write(values);
         if self.table.has_memory() {
@@ -158,9 +157,13 @@ impl<const D: usize> Model for LooseningElement<D> {
         let law_change = self.table.change(values[vr::PRELOAD]);
         let law_change = law_change.times(change[vr::PRELOAD]);
         differentiate([&self.law(values), &law_change], values, change);
-        let [r, r_change] = [values, &*change].map(|values| relative::<D>(values).displacement);
+        let motions = [values, &*change].map(relative::<D>);
         ElementOverPreloadOutputs {
-            power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
+            power_preload: preload_power_change(
+                &self.table,
+                [values, &*change],
+                motions.each_ref(),
+            ),
         }
         .write(change);
         if self.table.has_memory() {

@@ -14,7 +14,7 @@ use bolted_joint_dynamics::{
 
 use super::{
     CHECKED_BETWEEN, are_active, check_preload, preload_power, preload_power_change, smaller,
-    stored_energy_change, with_friction,
+    with_friction, work_of_preload_change,
 };
 use crate::{
     input_course::InputCourse,
@@ -97,9 +97,8 @@ impl<const D: usize> LooseningLap<D> {
         if counted_n_m == values[vr::PRELOAD] {
             return values[memory::PRELOAD_WORK];
         }
-        // U(r; p⁺) − U(r; p⁻)
-        let stored = |preload_n_m| self.table.springs(preload_n_m).stored_energy(r);
-        values[memory::PRELOAD_WORK] + stored(values[vr::PRELOAD]) - stored(counted_n_m)
+        let preloads_n_m = [counted_n_m, values[vr::PRELOAD]];
+        values[memory::PRELOAD_WORK] + self.table.work_of_preload(preloads_n_m, values.joint(), r)
     }
 
     /// The steps of one communication step. `conditions_at` gives what acts at a time after its start (s).
@@ -311,7 +310,7 @@ impl<const D: usize> Model for LooseningLap<D> {
                     joint: self.table.law(preload_n_m),
                     ..lap
                 },
-                law_rate: self.table.slope(preload_n_m).times(rate),
+                law_rate: self.table.spring_change(preload_n_m).times(rate),
                 loads: loads.after(after_s),
             })
         };
@@ -391,16 +390,16 @@ impl<const D: usize> Model for LooseningLap<D> {
     fn calculate_outputs(&self, values: &mut Values) {
         let lap = self.lap(values);
         let state = state::<D>(values);
-        let r = state.a.relative_to(&state.b).displacement;
+        let relative = state.relative();
         set_outputs(values, &lap, &state);
         if self.table.has_memory() {
             set_indicators::<D>(values);
         }
         LapOverPreloadOutputs {
-            power_preload: preload_power(&self.table, values, &r),
+            power_preload: preload_power(&self.table, values, &relative),
             power_supplied: supplied_power(&loads(values), &state),
             energy_preload: match self.interface_type {
-                InterfaceType::CoSimulation => self.preload_energy(values, &r),
+                InterfaceType::CoSimulation => self.preload_energy(values, &relative.displacement),
                 // E − E₀ − supplied + dissipated
                 InterfaceType::ModelExchange => {
                     values[vr::ENERGY_STORED]
@@ -422,25 +421,24 @@ impl<const D: usize> Model for LooseningLap<D> {
             b: B.body(change),
         };
         let [state, state_change] = [values, &*change].map(state::<D>);
-        let [r, r_change] =
-            [&state, &state_change].map(|state| state.a.relative_to(&state.b).displacement);
+        let motions = [&state, &state_change].map(LapState::relative);
         differentiate([&lap, &lap_change], values, change);
         if self.table.has_memory() {
             differentiate_indicators::<D>(values, change);
         }
         LapOverPreloadOutputs {
-            power_preload: preload_power_change(&self.table, [values, &*change], [&r, &r_change]),
+            power_preload: preload_power_change(
+                &self.table,
+                [values, &*change],
+                motions.each_ref(),
+            ),
             // dP = dFᵀẋ + Fᵀdẋ
             power_supplied: supplied_power(&loads(change), &state)
                 + supplied_power(&loads(values), &state_change),
             energy_preload: match self.interface_type {
                 InterfaceType::CoSimulation => {
-                    // d(U(r; p) − U(r; p_counted))
-                    let counted = self.table.springs(values[memory::COUNTED_PRELOAD]);
-                    let springs = self.table.springs(preload_n_m);
-                    let slope = self.table.slope(preload_n_m).times(change[vr::PRELOAD]);
-                    stored_energy_change([&springs, &slope], [&r, &r_change])
-                        - stored_energy_change([&counted, &JointLaw::NONE], [&r, &r_change])
+                    let r = motions.each_ref().map(|motion| &motion.displacement);
+                    work_of_preload_change(&self.table, [values, &*change], r)
                 }
                 InterfaceType::ModelExchange => {
                     change[vr::ENERGY_STORED] - change[vr::ENERGY_SUPPLIED]

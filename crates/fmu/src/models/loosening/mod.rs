@@ -6,7 +6,7 @@ mod lap;
 pub(super) use element::LooseningElement;
 pub(super) use lap::LooseningLap;
 
-use bolted_joint_dynamics::{Dual, JointLaw, JointOverPreload};
+use bolted_joint_dynamics::{Dual, JointLaw, JointOverPreload, Motion};
 
 use crate::{
     interface::{Values, memory, reference as vr},
@@ -28,7 +28,14 @@ fn with_friction<const D: usize>(
 ) -> Result<JointOverPreload<D>, Refusal> {
     let law = joint_law(values);
     check_laws(&law)?;
-    Ok(start.with_friction(law.on))
+    let table = start.with_friction(law.on);
+    // a table of friction is what the start-value file says, at its preloads and between them
+    for preload_n_m in table.samples_n_m(CHECKED_BETWEEN) {
+        if table.covers(preload_n_m) && table.has_memory() {
+            check_laws(&table.law(preload_n_m))?;
+        }
+    }
+    Ok(table)
 }
 
 /// Refuses a preload (N·m) at which there is no joint; `time_s` (s) where the simulation has come to it by itself.
@@ -56,25 +63,58 @@ fn check_preload<const D: usize>(
 fn preload_power<const D: usize>(
     table: &JointOverPreload<D>,
     values: &Values,
-    r: &[f64; D],
+    relative: &Motion<D>,
 ) -> f64 {
     // ∂U/∂p ṗ
-    values[memory::PRELOAD_RATE] * table.slope(values[vr::PRELOAD]).stored_energy(r)
+    let preload_n_m = values[vr::PRELOAD];
+    let (law, change) = (table.law(preload_n_m), table.spring_change(preload_n_m));
+    let memory = values.joint_at(&law, relative);
+    values[memory::PRELOAD_RATE] * law.power_of_change(&change, &memory, &relative.displacement)
 }
 
 /// First-order change of [`preload_power`] along the direction `change`.
 fn preload_power_change<const D: usize>(
     table: &JointOverPreload<D>,
     [values, change]: [&Values; 2],
-    [r, r_change]: [&[f64; D]; 2],
+    [relative, relative_change]: [&Motion<D>; 2],
 ) -> f64 {
     let preload_n_m = values[vr::PRELOAD];
+    let [r, r_change] = [relative, relative_change].map(|motion| &motion.displacement);
     let slope = table.slope(preload_n_m);
     let slope_change = table.curvature(preload_n_m).times(change[vr::PRELOAD]);
+    let (law, spring_change) = (table.law(preload_n_m), table.spring_change(preload_n_m));
+    let law_change = table.change(preload_n_m).times(change[vr::PRELOAD]);
+    let memory = values.joint_at(&law, relative);
     // d(∂U/∂p ṗ) = ∂U/∂p dṗ + ṗ (∂²U/∂p² dp + ∂²U/∂p∂r dr)
-    change[memory::PRELOAD_RATE] * slope.stored_energy(r)
+    change[memory::PRELOAD_RATE] * law.power_of_change(&spring_change, &memory, r)
         + values[memory::PRELOAD_RATE]
-            * stored_energy_change([&slope, &slope_change], [r, r_change])
+            * (stored_energy_change([&slope, &slope_change], [r, r_change])
+                + law.change_of_slider_power(&law_change, &spring_change, &memory, [r, r_change]))
+}
+
+/// First-order change of [`JointOverPreload::work_of_preload`] from the counted preload (N·m) to the present one.
+fn work_of_preload_change<const D: usize>(
+    table: &JointOverPreload<D>,
+    [values, change]: [&Values; 2],
+    [r, r_change]: [&[f64; D]; 2],
+) -> f64 {
+    let (counted_n_m, preload_n_m) = (values[memory::COUNTED_PRELOAD], values[vr::PRELOAD]);
+    let springs = |at_n_m| table.springs(at_n_m);
+    let slope = table.slope(preload_n_m).times(change[vr::PRELOAD]);
+    // d(U(r; p) − U(r; p_counted))
+    let of_springs = stored_energy_change([&springs(preload_n_m), &slope], [r, r_change])
+        - stored_energy_change([&springs(counted_n_m), &JointLaw::NONE], [r, r_change]);
+    let spring_change = table.spring_change(preload_n_m);
+    if !spring_change.has_memory() {
+        return of_springs;
+    }
+    let (from, to) = (table.law(counted_n_m), table.law(preload_n_m));
+    let own = from.with_change(&JointLaw::NONE);
+    let to = to.with_change(&spring_change.times(change[vr::PRELOAD]));
+    let r = std::array::from_fn(|dof| Dual::new(r[dof], [r_change[dof]]));
+    let memory = values.joint();
+    let of_sliders = own.energy_in(&to, memory, &r) - own.energy_in(&own, memory, &r);
+    of_springs + of_sliders.change[0]
 }
 
 /// First-order change of the energy that a law stores at the relative displacement r, with law and displacement.

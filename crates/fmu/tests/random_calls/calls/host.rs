@@ -27,6 +27,8 @@ pub(crate) struct Model {
     quintic_n_per_m5: f64,
     friction: &'static [Friction],
     is_over_preload: bool,
+    /// Whether friction is in the table, and not among the parameters.
+    is_friction_in_table: bool,
     /// Of an assembly, which has none of the above.
     pub(crate) assembly: Option<Laws>,
 }
@@ -91,7 +93,7 @@ const ALL_FRICTION: [Friction; 6] = [
 
 /// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
 /// friction, and over the preload; and assemblies.
-pub(crate) const MODELS: [Model; 24] = [
+pub(crate) const MODELS: [Model; 27] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -107,6 +109,11 @@ pub(crate) const MODELS: [Model; 24] = [
     Model::new(true, 2, 0.0).loosening(),
     Model::new(false, 2, 0.0).slipping(&[JENKINS]).loosening(),
     Model::new(true, 1, 0.0).slipping(&[JENKINS]).loosening(),
+    Model::new(false, 1, 0.0).slipping(&ALL_FRICTION).by_table(),
+    Model::new(true, 2, 0.0)
+        .slipping(&[JENKINS, IWAN])
+        .by_table(),
+    Model::new(false, 6, 0.0).slipping(&[IWAN]).by_table(),
     Model::new(false, 6, 1e12),
     Model::new(true, 6, -2e12),
     Model::new(false, 6, 0.0).slipping(&ALL_FRICTION),
@@ -131,6 +138,7 @@ impl Model {
             quintic_n_per_m5,
             friction: &[],
             is_over_preload: false,
+            is_friction_in_table: false,
             assembly: None,
         }
     }
@@ -146,6 +154,13 @@ impl Model {
         Self {
             is_over_preload: true,
             ..self
+        }
+    }
+
+    const fn by_table(self) -> Self {
+        Self {
+            is_friction_in_table: true,
+            ..self.loosening()
         }
     }
 
@@ -249,6 +264,9 @@ impl Model {
         let first = text.find("token ").expect("the token");
         let first = first + text[first..].find('\n').expect("its line") + 1;
         text.insert_str(first, &format!("laws {}\n", names.join(" ")));
+        if self.is_friction_in_table {
+            return text;
+        }
         for (symbol, value) in self.friction.iter().flat_map(|(_, parameters)| *parameters) {
             let dofs: &[&str] = match self.dofs {
                 1 => &["y"],
@@ -266,7 +284,11 @@ impl Model {
     fn over_preload(self, text: &str) -> String {
         let is_joint = |line: &&str| line.starts_with("joint.");
         let lines: Vec<&str> = text.lines().filter(|line| !is_joint(line)).collect();
-        let nominal = if self.friction.is_empty() { "" } else { " 10" };
+        let nominal = match (self.friction, self.is_friction_in_table) {
+            ([], _) => "",
+            (_, false) => " 10",
+            (_, true) => " friction",
+        };
         let row = |preload: f64| {
             let share = preload / 10.0;
             let (k, c) = (4e6 * share, 8.0 * share);
@@ -285,6 +307,15 @@ impl Model {
                 }
                 _ => format!("{preload} {k} 1e4 2e3 {c} 0.1 0.25 1e12 0"),
             }
+        };
+        let row = |preload: f64| {
+            let mut row = row(preload);
+            if self.is_friction_in_table {
+                for _ in 0..self.dofs {
+                    row += &friction_at(self.friction, preload / 10.0);
+                }
+            }
+            row
         };
         let table = [5.0, 10.0, 20.0].map(row).join("\n");
         let (head, tail) = lines.split_at(4);
@@ -311,6 +342,35 @@ impl Model {
         };
         (0..end).collect()
     }
+}
+
+/// Parameters of laws in a line of the table, at this share of the nominal preload: what slips in proportion, springs with its
+/// square root, but for the one law whose spring has to stay.
+fn friction_at(laws: &[Friction], share: f64) -> String {
+    const SLIPS: [&str; 7] = [
+        "iwan_h",
+        "jenkins_h",
+        "valanis_s0",
+        "dahl_h",
+        "lugre_fc",
+        "lugre_fs",
+        "bouc_wen_h",
+    ];
+    const SPRINGS: [&str; 6] = [
+        "iwan_k",
+        "jenkins_k",
+        "valanis_e0",
+        "valanis_et",
+        "dahl_k",
+        "lugre_s0",
+    ];
+    let all = laws.iter().flat_map(|(_, parameters)| *parameters);
+    let at = |&(symbol, value): &(&str, f64)| match symbol {
+        symbol if SLIPS.contains(&symbol) => value * share,
+        symbol if SPRINGS.contains(&symbol) => value * share.sqrt(),
+        _ => value,
+    };
+    all.map(|parameter| format!(" {}", at(parameter))).collect()
 }
 
 fn has_inner_state(law: &str) -> bool {

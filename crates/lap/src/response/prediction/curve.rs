@@ -6,9 +6,11 @@
 
 use std::f64::consts::TAU;
 
+use bolted_joint_statistics::student_975;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
+use super::between::{BetweenRuns, PointError, RunScatter};
 use super::directions;
 use crate::response::backbone::BackboneRun;
 use crate::response::data::Use;
@@ -66,7 +68,8 @@ pub struct Expected {
     /// Of the model.
     pub predicted: f64,
     /// Where a measurement is expected, with 95 %, of a run that was left out: by the deviations of the unknowns, the noise of
-    /// the run, and the errors of its amplitudes. Neither a law that is wrong nor what makes runs differ as a whole is in it.
+    /// the run, the errors of its amplitudes and, where several runs were fitted, what they differ by as a whole. A law that is
+    /// wrong beyond the amplitudes that were fitted is not in it.
     pub interval_95: Option<[f64; 2]>,
 }
 
@@ -119,16 +122,32 @@ impl Course {
 }
 
 impl BackbonePrediction {
+    /// Of all runs, with what those that were fitted differ by as a whole, where there are several.
+    pub(in crate::response) fn of_all(
+        model: &Model,
+        fit: &Fit,
+        runs: &[BackboneRun],
+        spread: &Spread<'_>,
+    ) -> (Vec<Self>, Option<BetweenRuns>) {
+        let courses = runs.iter().map(|run| Course::of(model, &fit.values, run));
+        let all: Vec<(&BackboneRun, Course)> = runs.iter().zip(courses).collect();
+        let between = spread.between(model, fit, &all);
+        let each = all
+            .iter()
+            .map(|(run, course)| Self::of(model, fit, run, course, (spread, between.as_ref())));
+        (each.collect(), between)
+    }
+
     /// Of a run; one that was left out has intervals.
-    pub(in crate::response) fn of(
+    fn of(
         model: &Model,
         fit: &Fit,
         run: &BackboneRun,
-        spread: &Spread<'_>,
+        course: &Course,
+        (spread, between): (&Spread<'_>, Option<&BetweenRuns>),
     ) -> Self {
-        let course = Course::of(model, &fit.values, run);
         let left_out = run.used_for == Use::Predict;
-        let intervals = left_out.then(|| spread.of_course(model, fit, run, &course));
+        let intervals = left_out.then(|| spread.of_course(model, fit, run, course, between));
         let interval = |kind: usize, place: usize| {
             let half = intervals.as_ref()?.points[place][kind];
             half.is_finite().then_some(half)
@@ -168,7 +187,7 @@ impl BackbonePrediction {
             frequency_error_hz: mean(of_frequency.collect()),
             damping_error: (!of_damping.is_empty()).then(|| mean(of_damping)),
             points,
-            fall: fall(run, &course, intervals.and_then(|own| own.duration_s)),
+            fall: fall(run, course, intervals.and_then(|own| own.duration_s)),
         }
     }
 
@@ -206,8 +225,80 @@ struct Halves {
 }
 
 impl Spread<'_> {
+    /// Variances of the noise of each point, of the logarithm of its frequency and of its damping ratio, as they were taken.
+    fn of_points(
+        &self,
+        model: &Model,
+        fit: &Fit,
+        run: &BackboneRun,
+        course: &Course,
+    ) -> Vec<[f64; 2]> {
+        // how the model's own curve falls or rises makes errors of the amplitudes errors of what is compared there
+        let errors = corrected(model, &fit.values, run).errors;
+        let places = course.points.iter().enumerate();
+        let each = places.map(|(place, &[_, ratio])| match &errors {
+            Some(errors) => errors.variances_of(place),
+            None => [self.noise.frequency, self.noise.damping * ratio].map(|own| own * own),
+        });
+        each.collect()
+    }
+
+    /// What the runs that were fitted differ by as a whole.
+    fn between(
+        &self,
+        model: &Model,
+        fit: &Fit,
+        all: &[(&BackboneRun, Course)],
+    ) -> Option<BetweenRuns> {
+        let fitted: Vec<_> = all
+            .iter()
+            .filter(|(run, _)| run.used_for == Use::Fit)
+            .collect();
+        let runs = fitted.len();
+        if runs < 2 {
+            return None;
+        }
+        let mut errors = [Vec::new(), Vec::new()];
+        for (index, (run, course)) in fitted.into_iter().enumerate() {
+            let variances = self.of_points(model, fit, run, course);
+            let points = run.lines.iter().zip(&course.points).zip(variances);
+            for ((line, &[log_omega, ratio]), [of_frequency, of_ratio]) in points {
+                let relative = line.damping_ratio.map(|measured| measured / ratio - 1.0);
+                let both = [
+                    (Some(line.omega.ln() - log_omega), of_frequency),
+                    (relative, of_ratio / (ratio * ratio)),
+                ];
+                for (own, (error, variance)) in errors.iter_mut().zip(both) {
+                    let error = error.filter(|error| error.is_finite());
+                    let Some(error) = error.filter(|_| variance > 0.0 && variance.is_finite())
+                    else {
+                        continue;
+                    };
+                    own.push(PointError {
+                        run: index,
+                        log_amplitude: line.amplitude_m.ln(),
+                        error,
+                        variance,
+                    });
+                }
+            }
+        }
+        Some(BetweenRuns {
+            runs,
+            frequency: RunScatter::of(runs, &errors[0])?,
+            damping: RunScatter::of(runs, &errors[1]),
+        })
+    }
+
     /// g Σ gᵀ of the unknowns beside the variance of what is measured.
-    fn of_course(&self, model: &Model, fit: &Fit, run: &BackboneRun, course: &Course) -> Halves {
+    fn of_course(
+        &self,
+        model: &Model,
+        fit: &Fit,
+        run: &BackboneRun,
+        course: &Course,
+        between: Option<&BetweenRuns>,
+    ) -> Halves {
         let mut points = vec![[0.0; 2]; run.lines.len()];
         let mut duration = Some(0.0);
         for direction in directions(&fit.within_limits(self.covariance)).column_iter() {
@@ -227,20 +318,36 @@ impl Spread<'_> {
                 .zip(both)
                 .map(|(sum, (above, below))| sum + change(above, below));
         }
-        // how the model's own curve falls or rises makes errors of the amplitudes errors of what is compared there
         let errors = corrected(model, &fit.values, run).errors;
-        let half = |variance: f64| self.quantile * variance.sqrt();
-        let of_points = points.iter().zip(&course.points).enumerate();
-        let of_points = of_points.map(|(place, (of_unknowns, &[_, ratio]))| {
-            let measured = match &errors {
-                // noise of records is known by itself: a residual below it is chance
-                Some(errors) => errors
-                    .variances_of(place)
-                    .map(|own| own * self.factor.max(1.0)),
-                None => [self.noise.frequency, self.noise.damping * ratio]
-                    .map(|own| own * own * self.factor),
-            };
-            [0, 1].map(|kind| half(of_unknowns[kind] + measured[kind]))
+        // what runs differ by is no noise of their points
+        let factor = |kind: usize| {
+            let within = between.and_then(|between| between.of_kind(kind));
+            let factor = within.map_or(self.factor, |own| own.within);
+            // noise of records is known by itself: a residual below it is chance
+            if errors.is_some() {
+                factor.max(1.0)
+            } else {
+                factor
+            }
+        };
+        let factors = [0, 1].map(factor);
+        // Student's quantile of as many runs as there are beside their mean
+        let of_run = |kind: usize, size: f64| {
+            between.map_or(0.0, |between| {
+                let quantile = student_975(between.runs - 1);
+                between.variance(kind) * (quantile * size).powi(2)
+            })
+        };
+        let half =
+            |variance: f64, of_run: f64| (self.quantile * self.quantile * variance + of_run).sqrt();
+        let measured = self.of_points(model, fit, run, course);
+        let of_points = points.iter().zip(&course.points).zip(measured);
+        let of_points = of_points.map(|((of_unknowns, &[_, ratio]), measured)| {
+            [0, 1].map(|kind| {
+                let size = [1.0, ratio][kind];
+                let variance = of_unknowns[kind] + measured[kind] * factors[kind];
+                half(variance, of_run(kind, size))
+            })
         });
         let of_ends = errors.as_ref().map(|errors| {
             // t = ∫ d ln A/δ(A): by the first amplitude 1/δ there, by the last −1/δ
@@ -253,9 +360,11 @@ impl Spread<'_> {
         });
         Halves {
             points: of_points.collect(),
-            duration_s: duration
-                .zip(of_ends)
-                .map(|(of_unknowns, of_ends)| half(of_unknowns + of_ends)),
+            duration_s: duration.zip(of_ends).map(|(of_unknowns, of_ends)| {
+                // t falls as ζω of the run is larger
+                let size = course.duration_s.unwrap_or(0.0);
+                half(of_unknowns + of_ends, of_run(0, size) + of_run(1, size))
+            }),
         }
     }
 }

@@ -32,6 +32,17 @@ pub enum AssemblyError {
         /// Why.
         source: Box<LawError>,
     },
+    /// Friction with a table of its own, which cannot follow a preload that moves.
+    #[error(
+        "{path}: `joint.over_preload.friction`: found friction with a table of its own over the preload, which holds while the \
+         preload stays where it is; take joint {name} at one preload, with `preload` in its table of the assembly file"
+    )]
+    FrictionOverPreload {
+        /// The joint file.
+        path: String,
+        /// Name of the joint.
+        name: String,
+    },
     /// An undamped resonance.
     #[error(
         "the assembly has no finite receptance at {frequency_hz} Hz, an undamped resonance; leave that line out, or give the structures damping"

@@ -10,17 +10,19 @@
 //! | `loads N`, then N lines | how each load acts on the coordinates |
 //! | `motions N`, then N lines | what the coordinates are of each motion |
 //! | `joints N` | each: `joint`, its name and its DOFs; as many lines of S; K and C row by row; `laws N`, then N lines of the \
-//!   name of a parameter and its value |
+//!   name of a parameter and its value; of a joint over the preload its table as in the files of other models, and what stands \
+//!   before of it are laws that remember |
 
 use bolted_joint_dynamics::{
     DOFS, DofLaws, SPACE,
-    assembly::{Assembly, AssemblyJoint, Matrix},
+    assembly::{Assembly, AssemblyJoint, LawOverPreload, Matrix},
     law::{DOF_PARAMETER_COUNT, dof_parameters},
 };
 
 use crate::{
     interface::{ContinuousState, FIRST_LISTED, ListedVariables, Name, Role, Variable},
     models::AssemblyLayout,
+    preload_table::{self, columns},
     start_file::{Fault, Header, StartFileError},
 };
 
@@ -52,13 +54,24 @@ pub(crate) fn parse(
     let states = self::count(header, "states ", "\"states\" and their number")?;
     let expected = "places of a state and of its derivative, and its typical magnitude";
     let states = header.lines(states, expected, state)?;
-    let file = AssemblyFile::parse(header)?;
+    let mut file = AssemblyFile::parse(header)?;
     if !header.is_at_end() {
         return header.next("", "the end of the file", |_| None);
     }
-    let laws = file.assembly.joints.iter().flat_map(|joint| &joint.laws);
-    let remembering = laws.filter(|laws| !laws.are_none()).count();
+    let remembering = file.assembly.laws().count() + file.assembly.over_preload().count();
     let layout = AssemblyLayout::of(&file);
+    let preloads = variables.get(layout.preloads.clone()).unwrap_or_default();
+    let preloads: Vec<f64> = preloads.iter().map(|own| own.start).collect();
+    let are_covered = {
+        let mut pairs = file.assembly.over_preload().zip(&preloads);
+        pairs.all(|(law, &preload_n_m)| law.covers(preload_n_m))
+    };
+    if !are_covered {
+        return Err(header.refuse_here(Fault::Contradiction {
+            what: "found a preload at the start that is beyond its table, expected one within",
+        }));
+    }
+    file.assembly = file.assembly.about(&preloads);
     let roles: Vec<Role> = variables.iter().map(|own| own.role).collect();
     let listed = ListedVariables::new(variables, states, apart, remembering);
     match listed.filter(|_| layout.agrees(&roles, apart)) {
@@ -220,11 +233,24 @@ fn joint(header: &mut Header<'_>, size: usize) -> Result<(String, AssemblyJoint)
             what: "found a parameter outside of the range of its law",
         }));
     }
+    let remembers = laws.iter().any(DofLaws::have_memory);
+    let over_preload = header.table_of(columns(count), remembers, |rows, beyond, nominal_n_m| {
+        let places: Vec<usize> = (0..count).collect();
+        let law: LawOverPreload = preload_table::joint(&places, rows, beyond)?;
+        Ok(match nominal_n_m {
+            Some(nominal_n_m) => {
+                let on = std::array::from_fn(|i| laws.get(i).copied().unwrap_or(DofLaws::NONE));
+                law.with_friction(on, nominal_n_m)
+            }
+            None => law,
+        })
+    })?;
     let joint = AssemblyJoint {
         relative,
         stiffness,
         damping,
         laws,
+        over_preload: over_preload.map(Box::new),
     };
     Ok((name, joint))
 }

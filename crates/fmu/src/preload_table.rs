@@ -29,8 +29,7 @@ pub(crate) struct OverPreload<const D: usize> {
 impl PreloadTable {
     /// Numbers in a row: the preload, the upper triangles of K and C row by row, k3.
     pub(crate) const fn columns(dofs: Dofs) -> usize {
-        let order = dofs.count();
-        1 + order * (order + 1) + order
+        columns(dofs.count())
     }
 
     /// The joint through these rows, each of [`PreloadTable::columns`] numbers.
@@ -72,17 +71,32 @@ impl PreloadTable {
     }
 }
 
+/// The same of a joint with so many degrees of freedom.
+pub(crate) const fn columns(dofs: usize) -> usize {
+    1 + dofs * (dofs + 1) + dofs
+}
+
 fn over_preload<const D: usize>(
     dofs: Dofs,
     rows: &[Vec<f64>],
     beyond: Beyond,
     nominal_n_m: Option<f64>,
 ) -> Result<OverPreload<D>, TableDefect> {
-    let table: Vec<_> = rows.iter().filter_map(|row| law(dofs, row)).collect();
+    let places: Vec<usize> = dofs.places().collect();
     Ok(OverPreload {
-        joint: JointOverPreload::new(&table, beyond)?,
+        joint: joint(&places, rows, beyond)?,
         nominal_n_m,
     })
+}
+
+/// The joint through these rows, each of as many numbers as [`columns`] says, with its degrees of freedom at these places.
+pub(crate) fn joint<const D: usize>(
+    places: &[usize],
+    rows: &[Vec<f64>],
+    beyond: Beyond,
+) -> Result<JointOverPreload<D>, TableDefect> {
+    let table: Vec<_> = rows.iter().filter_map(|row| law(places, row)).collect();
+    JointOverPreload::new(&table, beyond)
 }
 
 impl<const D: usize> OverPreload<D> {
@@ -97,13 +111,13 @@ impl<const D: usize> OverPreload<D> {
 }
 
 /// Preload and law of one row.
-fn law<const D: usize>(dofs: Dofs, row: &[f64]) -> Option<(f64, JointLaw<D>)> {
+fn law<const D: usize>(places: &[usize], row: &[f64]) -> Option<(f64, JointLaw<D>)> {
     let mut numbers = row.iter().copied();
     let preload_n_m = numbers.next()?;
     let mut matrix = || {
         let mut matrix = [[0.0; D]; D];
-        for (n, i) in dofs.places().enumerate() {
-            for j in dofs.places().skip(n) {
+        for (n, &i) in places.iter().enumerate() {
+            for &j in places.iter().skip(n) {
                 matrix[i][j] = numbers.next()?;
                 matrix[j][i] = matrix[i][j];
             }
@@ -115,7 +129,7 @@ fn law<const D: usize>(dofs: Dofs, row: &[f64]) -> Option<(f64, JointLaw<D>)> {
         damping: matrix()?,
     };
     let mut cubic = [Polynomial::NONE; D];
-    for i in dofs.places() {
+    for &i in places {
         cubic[i] = Polynomial::cubic(numbers.next()?);
     }
     Some((preload_n_m, linear.beside(cubic)))

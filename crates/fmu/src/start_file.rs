@@ -289,11 +289,23 @@ impl Header<'_> {
 
     /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, of a joint that remembers
     /// the preload that its friction is stated at, and the lines.
-    pub(crate) fn table(
+    fn table(
         &mut self,
         dofs: Dofs,
         remembers: bool,
     ) -> Result<Option<PreloadTable>, StartFileError> {
+        self.table_of(PreloadTable::columns(dofs), remembers, |rows, beyond, nominal_n_m| {
+            PreloadTable::new(dofs, rows, beyond, nominal_n_m)
+        })
+    }
+
+    /// The same of so many columns, and what `of` makes of its lines, of what is beyond, and of that preload.
+    pub(crate) fn table_of<T>(
+        &mut self,
+        columns: usize,
+        remembers: bool,
+        of: impl FnOnce(&[Vec<f64>], Beyond, Option<f64>) -> Result<T, TableDefect>,
+    ) -> Result<Option<T>, StartFileError> {
         const EXPECTED: &str = "\"table\", the number of its lines, \"refused\" or \"held\", and with laws the preload of these";
         if !self.goes_on_with("table ") {
             return Ok(None);
@@ -314,7 +326,6 @@ impl Header<'_> {
             (is_good && words.next().is_none()).then_some((count, beyond, nominal_n_m))
         })?;
         let heading = self.line;
-        let columns = PreloadTable::columns(dofs);
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for _ in 0..count {
             self.line += 1;
@@ -327,7 +338,7 @@ impl Header<'_> {
                 }
             }
         }
-        let table = PreloadTable::new(dofs, &rows, beyond, nominal_n_m);
+        let table = of(&rows, beyond, nominal_n_m);
         table
             .map(Some)
             .map_err(|defect| self.refuse(heading, Fault::Table(defect)))

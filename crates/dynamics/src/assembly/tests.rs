@@ -16,6 +16,7 @@ fn check_case(laws: DofLaws, [k, c]: [f64; 2]) -> Assembly {
             stiffness: Matrix::from_fn(1, 1, |_, _| k),
             damping: Matrix::from_fn(1, 1, |_, _| c),
             laws: vec![laws],
+            over_preload: None,
         }],
     }
 }

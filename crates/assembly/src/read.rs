@@ -72,7 +72,7 @@ impl AssemblyModel {
         let outputs = reader.channels("outputs", tables.outputs)?;
         let response = tables
             .response
-            .map(|table| Response::of(text, table, &inputs));
+            .map(|table| Response::of(text, table, &inputs, &outputs));
         let mut model = Self {
             path: text.path().to_owned(),
             name: tables.name,
@@ -115,8 +115,8 @@ impl Reader<'_> {
         let key = format!("joints.{place}");
         let path = text.resolved(&table.file);
         let whole = JointFile::read(&path)?;
-        let over_preload = (whole.joint.over_preload.is_some() && table.preload.is_none())
-            .then(|| whole.clone());
+        let over_preload =
+            (whole.joint.over_preload.is_some() && table.preload.is_none()).then(|| whole.clone());
         let file = whole;
         let file = match (&file.joint.over_preload, table.preload) {
             (None, None) => file,

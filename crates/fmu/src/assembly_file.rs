@@ -234,17 +234,18 @@ fn joint(header: &mut Header<'_>, size: usize) -> Result<(String, AssemblyJoint)
         }));
     }
     let remembers = laws.iter().any(DofLaws::have_memory);
-    let over_preload = header.table_of(columns(count), remembers, |rows, beyond, nominal_n_m| {
-        let places: Vec<usize> = (0..count).collect();
-        let law: LawOverPreload = preload_table::joint(&places, rows, beyond)?;
-        Ok(match nominal_n_m {
-            Some(nominal_n_m) => {
-                let on = std::array::from_fn(|i| laws.get(i).copied().unwrap_or(DofLaws::NONE));
-                law.with_friction(on, nominal_n_m)
-            }
-            None => law,
-        })
-    })?;
+    let over_preload =
+        header.table_of(columns(count), remembers, |rows, beyond, nominal_n_m| {
+            let places: Vec<usize> = (0..count).collect();
+            let law: LawOverPreload = preload_table::joint(&places, rows, beyond)?;
+            Ok(match nominal_n_m {
+                Some(nominal_n_m) => {
+                    let on = std::array::from_fn(|i| laws.get(i).copied().unwrap_or(DofLaws::NONE));
+                    law.with_friction(on, nominal_n_m)
+                }
+                None => law,
+            })
+        })?;
     let joint = AssemblyJoint {
         relative,
         stiffness,

@@ -294,9 +294,11 @@ impl Header<'_> {
         dofs: Dofs,
         remembers: bool,
     ) -> Result<Option<PreloadTable>, StartFileError> {
-        self.table_of(PreloadTable::columns(dofs), remembers, |rows, beyond, nominal_n_m| {
-            PreloadTable::new(dofs, rows, beyond, nominal_n_m)
-        })
+        self.table_of(
+            PreloadTable::columns(dofs),
+            remembers,
+            |rows, beyond, nominal_n_m| PreloadTable::new(dofs, rows, beyond, nominal_n_m),
+        )
     }
 
     /// The same of so many columns, and what `of` makes of its lines, of what is beyond, and of that preload.

@@ -19,6 +19,13 @@ const ANGLE_AT_A_MILLIONTH: f64 = 0.13;
 /// … which is of fourth order.
 const MILLIONTH: f64 = 1e-6;
 
+/// Between the ends and the middle of a step the forces are taken as a parabola of time. A motion of the frequency ω, which may be
+/// far above ω_t, makes that err by this times ((h ω_t)² (ωh)² + h λ_t (ωh)³) of itself over 1/ω: Simpson's rule leaves h⁴ f⁗/2880
+/// of a force, which gives a third of it; the rest is margin.
+const OF_PARABOLA: f64 = 1e-3;
+/// (ωh)⁴ is this times the distance between the middle and the cubic through the ends with their slopes (Hermite).
+const HERMITE: f64 = 384.0;
+
 /// Error of the joints' nonlinear part over a period of their own, as a part of the motion, in FMUs and histories.
 pub const TOLERANCE: f64 = 1e-7;
 
@@ -40,7 +47,7 @@ pub struct AssemblyState {
 pub struct AssemblySteps {
     system: System,
     ladder: Ladder,
-    largest_angle: f64,
+    tolerance: f64,
     scratch: Vec<Scratch>,
     is_too_long: bool,
 }
@@ -74,7 +81,7 @@ impl AssemblySteps {
         let ladder = Ladder::new(&system, length_s)?;
         let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
         Some(Self {
-            largest_angle: largest_angle(tolerance),
+            tolerance,
             system,
             ladder,
             scratch,
@@ -86,7 +93,7 @@ impl AssemblySteps {
     #[must_use]
     pub fn with_tolerance(&self, tolerance: f64) -> Self {
         Self {
-            largest_angle: largest_angle(tolerance),
+            tolerance,
             ..self.clone()
         }
     }
@@ -152,7 +159,7 @@ impl AssemblySteps {
         own.follow(&self.system);
         own.take(&self.system, rung, state);
         let is_finest = finer.is_empty();
-        let is_steep = own.is_steep(&self.system, rung, state, self.largest_angle);
+        let is_steep = own.is_steep(&self.system, rung, state, self.tolerance);
         self.is_too_long |= is_finest && is_steep && self.system.forces() > 0;
         let at_events = match is_finest {
             true => None,
@@ -403,20 +410,39 @@ impl Scratch {
         system: &System,
         rung: &Rung,
         before: &AssemblyState,
-        largest_angle: f64,
+        tolerance: f64,
     ) -> bool {
-        let [begin, .., end] = &self.relative;
+        let [begin, hermite, middle, _, end] = &self.relative;
         let [at_begin, at_middle, at_end] = three(system, &self.laws);
-        if at_begin.are_far_from(at_middle, system)
-            || at_middle.are_far_from(at_end, system) {
+        if at_begin.are_far_from(at_middle, system) || at_middle.are_far_from(at_end, system) {
             return true;
         }
+        let h = rung.length_s;
+        let largest = largest_angle(tolerance);
         let tangents = &mut self.tangents;
-        [(at_begin, begin), (at_end, end)].into_iter().any(|(laws, at)| {
+        // h ω_t and h λ_t
+        let mut angles = [0.0_f64; 2];
+        for (laws, at) in [(at_begin, begin), (at_end, end)] {
             let pace = laws.pace(system, &before.memory, at, tangents);
-            let fastest = pace.frequency_rad_per_s.max(pace.rate_per_s);
-            // false for NaN
-            rung.length_s * fastest > largest_angle
+            angles[0] = angles[0].max(h * pace.frequency_rad_per_s);
+            angles[1] = angles[1].max(h * pace.rate_per_s);
+            if angles[0] > largest || angles[1] > largest {
+                return true;
+            }
+        }
+        if angles == [0.0; 2] {
+            return false;
+        }
+        (0..system.forces()).any(|i| {
+            let size = [begin[i], middle[i], end[i]].map(f64::abs);
+            let size = size[0].max(size[1]).max(size[2]);
+            if size == 0.0 {
+                return false;
+            }
+            // (ωh)²
+            let square = (HERMITE * (middle[i] - hermite[i]).abs() / size).sqrt();
+            let error = angles[0].powi(2) * square + angles[1] * square * square.sqrt();
+            OF_PARABOLA * error > tolerance
         })
     }
 

@@ -59,7 +59,9 @@ impl Assembly {
 
     /// The joints over the preload, in their order.
     pub fn over_preload(&self) -> impl Iterator<Item = &LawOverPreload> {
-        self.joints.iter().filter_map(|joint| joint.over_preload.as_deref())
+        self.joints
+            .iter()
+            .filter_map(|joint| joint.over_preload.as_deref())
     }
 
     /// The same assembly with these preloads (N·m), one for each joint over the preload, as those at which the linear part is.
@@ -89,7 +91,9 @@ impl Assembly {
     #[must_use]
     pub fn laws_at(&self, preloads_n_m: &[f64]) -> Vec<JointLaw<SPACE_COUNT>> {
         let pairs = self.over_preload().zip(preloads_n_m);
-        pairs.map(|(own, &preload_n_m)| own.law(preload_n_m)).collect()
+        pairs
+            .map(|(own, &preload_n_m)| own.law(preload_n_m))
+            .collect()
     }
 }
 
@@ -196,7 +200,13 @@ impl System {
 fn in_space(matrix: &Matrix) -> [[f64; SPACE_COUNT]; SPACE_COUNT] {
     let has = |i: usize| i < matrix.rows();
     std::array::from_fn(|i| {
-        std::array::from_fn(|j| if has(i) && has(j) { matrix[(i, j)] } else { 0.0 })
+        std::array::from_fn(|j| {
+            if has(i) && has(j) {
+                matrix[(i, j)]
+            } else {
+                0.0
+            }
+        })
     })
 }
 

@@ -337,7 +337,11 @@ impl Maker<'_> {
                 "energy.stored",
                 "Energy",
                 None,
-                preloads().chain(q()).chain(v()).chain(inner()).collect::<Vec<_>>(),
+                preloads()
+                    .chain(q())
+                    .chain(v())
+                    .chain(inner())
+                    .collect::<Vec<_>>(),
                 "Energy of motion, and stored in structures and joints",
             ),
             (
@@ -367,7 +371,9 @@ impl Maker<'_> {
         }
         if places.preloads > 0 {
             let on = preloads().chain(q()).chain(v());
-            let on = on.chain([places.energy(0), places.energy(1)]).chain(inner());
+            let on = on
+                .chain([places.energy(0), places.energy(1)])
+                .chain(inner());
             let on: Vec<usize> = on.collect();
             let own = self.add(
                 "energy.preload".to_owned(),

@@ -108,8 +108,8 @@ pub fn assembly_fmu(
     };
     let unit = |place: usize| of(place).map_or_else(String::new, |own| own.unit.clone());
     let nominal = |place: usize| of(place).map_or(1.0, |own| own.nominal);
-    let resources =
-        equations::list_lines(&list, unit, nominal) + &equations::equation_lines(model, &assembly, options.extrapolate);
+    let resources = equations::list_lines(&list, unit, nominal)
+        + &equations::equation_lines(model, &assembly, options.extrapolate);
     let library_name = description.model_identifier();
     let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;

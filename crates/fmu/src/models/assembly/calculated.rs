@@ -29,11 +29,7 @@ pub(super) struct Calculated<'a, N = f64> {
 
 impl<N: Number> Calculated<'_, N> {
     /// Motions, loads in the joints, and what these remember.
-    pub(super) fn write<M: Number + Into<N>>(
-        &self,
-        listed: &mut [N],
-        memory: &[DofMemory<M>],
-    ) {
+    pub(super) fn write<M: Number + Into<N>>(&self, listed: &mut [N], memory: &[DofMemory<M>]) {
         let layout = self.layout;
         let (states, calculated) = listed.split_at_mut(layout.motions.start);
         let motion = self.motion(states);

@@ -44,9 +44,8 @@ impl Lengths {
             self.latest_s = [step.interval_s, rounded_s];
         }
         let mut known = self.prepared.iter();
-        let is_it = |own: &Prepared| {
-            own.steps.length_s() == rounded_s && own.about_n_m == about_n_m
-        };
+        let is_it =
+            |own: &Prepared| own.steps.length_s() == rounded_s && own.about_n_m == about_n_m;
         match known.position(is_it) {
             Some(place) if place + 1 == self.prepared.len() => {}
             Some(place) => {

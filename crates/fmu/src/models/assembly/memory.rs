@@ -56,7 +56,11 @@ pub(super) fn stay(calculated: Calculated<'_>, values: &mut Values, stayed: &Sta
             }
         };
         if let Some([own, steps, ..]) = values.memories_mut().get_mut(first + which) {
-            *steps = if has_stayed && *own == begun_n_m { *steps + 1.0 } else { 0.0 };
+            *steps = if has_stayed && *own == begun_n_m {
+                *steps + 1.0
+            } else {
+                0.0
+            };
             *own = preload_n_m;
         }
     }

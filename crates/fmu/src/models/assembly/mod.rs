@@ -76,11 +76,7 @@ impl AssemblyModel {
 
     /// Refuses preloads (N·m) that a step of this length (s) comes to and at which there is no joint, by `look`, which finds
     /// them after a time (s).
-    fn check_preloads(
-        &self,
-        step: Step,
-        look: impl Fn(usize, f64) -> f64,
-    ) -> Result<(), Refusal> {
+    fn check_preloads(&self, step: Step, look: impl Fn(usize, f64) -> f64) -> Result<(), Refusal> {
         let laws = self.file.assembly.over_preload();
         for (place, law) in self.layout.preloads.clone().zip(laws) {
             for part in 1..=PARTS {
@@ -203,7 +199,9 @@ impl Model for AssemblyModel {
         let preloads = self.layout.preloads.clone();
         let ended_n_m: Vec<f64> = match is_held {
             true => values.listed()[preloads].to_vec(),
-            false => preloads.map(|place| after(place, step.interval_s)).collect(),
+            false => preloads
+                .map(|place| after(place, step.interval_s))
+                .collect(),
         };
         let about_n_m = memory::about_n_m(self.calculated(&[]), values, is_held);
         self.take_state(values);

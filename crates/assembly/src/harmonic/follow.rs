@@ -11,6 +11,8 @@ const MOST_ITERATIONS: usize = 10;
 const USUAL_ITERATIONS: f64 = 3.0;
 /// Change of the unknowns at which a point is one of the curve.
 const CONVERGED: f64 = 1e-10;
+/// Part of the change before that is no progress.
+const LITTLE_LESS: f64 = 0.3;
 /// Smallest cosine between the tangents of neighbouring points.
 const SMALLEST_COSINE: f64 = 0.97;
 
@@ -38,7 +40,7 @@ fn solve(
     row: &DVector<f64>,
 ) -> Option<(DVector<f64>, usize)> {
     let mut unknowns = start.clone();
-    let mut is_near = false;
+    let mut last = f64::INFINITY;
     for iteration in 1..=MOST_ITERATIONS {
         let (residual, derivatives) = curve.at(&unknowns)?;
         let count = residual.len();
@@ -51,12 +53,11 @@ fn solve(
             return None;
         }
         unknowns += change.component_mul(scale);
-        // one more where rounding allows no less
-        if size < CONVERGED || is_near && size < CONVERGED.sqrt() && iteration > MOST_ITERATIONS / 2
-        {
+        // or where rounding, or the corners of what slides, allow no less
+        if size < CONVERGED || size < CONVERGED.sqrt() && size > LITTLE_LESS * last {
             return Some((unknowns, iteration));
         }
-        is_near = size < CONVERGED.sqrt();
+        last = size;
     }
     None
 }

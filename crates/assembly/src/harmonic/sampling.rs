@@ -13,9 +13,8 @@ use nalgebra::DMatrix;
 const SAMPLES_A_HARMONIC: usize = 12;
 /// Samples of a law that remembers: its corners leave an error of the square of their distance.
 const SAMPLES_OF_FRICTION: usize = 2048;
-/// Part of the motion by which it is varied for the derivatives of laws that remember.
-const VARIED: f64 = 1e-6;
-
+/// Steps of Newton's method from the largest sample to what is largest.
+const NEWTON_STEPS: usize = 4;
 /// The harmonics that are balanced, with cosines and sines of a period.
 #[derive(Clone, Debug)]
 pub(super) struct Sampling {
@@ -71,9 +70,34 @@ impl Sampling {
 
     /// The largest magnitude over a period of what has these coefficients.
     pub(super) fn largest(&self, coefficients: &[f64]) -> f64 {
-        let samples =
-            (0..self.waves.nrows()).map(|sample| self.at(&self.waves, coefficients, sample).abs());
-        samples.fold(0.0, f64::max)
+        // value, slope and curvature
+        let at = |angle: f64| {
+            let pairs = self.orders.iter().zip(coefficients.chunks_exact(2));
+            pairs.fold([0.0; 3], |[value, slope, curvature], (&order, own)| {
+                let k = order as f64;
+                let (sine, cosine) = (k * angle).sin_cos();
+                let wave = own[0] * cosine + own[1] * sine;
+                [
+                    value + wave,
+                    slope + k * (own[1] * cosine - own[0] * sine),
+                    curvature - k * k * wave,
+                ]
+            })
+        };
+        let count = SAMPLES_A_HARMONIC * (self.orders.len() * 2 + 1);
+        let spacing = TAU / count as f64;
+        // half a period is enough of odd harmonics
+        let angles = (0..=count / 2).map(|sample| spacing * sample as f64);
+        let nearest = angles.max_by(|&one, &other| at(one)[0].abs().total_cmp(&at(other)[0].abs()));
+        let mut angle = nearest.unwrap_or_default();
+        for _ in 0..NEWTON_STEPS {
+            let [_, slope, curvature] = at(angle);
+            if curvature != 0.0 {
+                angle -= (slope / curvature).clamp(-spacing, spacing);
+            }
+        }
+        let found = at(angle)[0].abs();
+        nearest.map_or(found, |nearest| found.max(at(nearest)[0].abs()))
     }
 
     /// The force of these laws at this motion of the frequency ω (rad/s).
@@ -111,55 +135,54 @@ impl Sampling {
         force
     }
 
-    /// That of laws that remember, with derivatives by differences.
+    /// That of laws that remember.
     fn friction(&self, laws: &DofLaws, motion: &[f64], omega: f64) -> Force {
         let size = self.size();
-        let coefficients = self.followed(laws, motion, omega);
-        let largest = motion
-            .iter()
-            .fold(0.0, |largest: f64, own| largest.max(own.abs()));
-        let step = if largest > 0.0 {
-            VARIED * largest
-        } else {
-            f64::EPSILON
-        };
-        let mut by_motion = DMatrix::zeros(size, size);
-        let mut varied = motion.to_vec();
-        for j in 0..size {
-            varied[j] = motion[j] + step;
-            let own = self.followed(laws, &varied, omega);
-            for i in 0..size {
-                by_motion[(i, j)] = (own[i] - coefficients[i]) / step;
-            }
-            varied[j] = motion[j];
-        }
-        let change = VARIED * omega;
-        let own = self.followed(laws, motion, omega + change);
-        let by_frequency = own
-            .iter()
-            .zip(&coefficients)
-            .map(|(own, was)| (own - was) / change);
+        let along = DofLaws::new(laws.parameters().map(Dual::<1>::from));
+        // along each of the motion's coefficients, and then along ω
+        let columns: Vec<Vec<Dual<1>>> = (0..=size)
+            .map(|column| {
+                let change = |sample: usize| match column == size {
+                    true => [0.0, self.at(&self.slopes, motion, sample)],
+                    false => [
+                        self.waves[(sample, column)],
+                        omega * self.slopes[(sample, column)],
+                    ],
+                };
+                self.followed(&along, motion, omega, change)
+            })
+            .collect();
+        let value = |i: usize| columns[size][i].value;
         Force {
-            by_frequency: by_frequency.collect(),
-            coefficients,
-            by_motion,
+            coefficients: (0..size).map(value).collect(),
+            by_motion: DMatrix::from_fn(size, size, |i, j| columns[j][i].change[0]),
+            by_frequency: columns[size].iter().map(|own| own.change[0]).collect(),
         }
     }
 
-    /// Coefficients of the force once what the laws remember repeats itself.
-    fn followed(&self, laws: &DofLaws, motion: &[f64], omega: f64) -> Vec<f64> {
-        let mut memory: DofMemory = DOF_AT_REST;
-        let mut coefficients = vec![0.0; self.size()];
+    /// Coefficients of the force once what the laws remember repeats itself, with their change along that of r and ṙ.
+    fn followed(
+        &self,
+        laws: &DofLaws<Dual<1>>,
+        motion: &[f64],
+        omega: f64,
+        change: impl Fn(usize) -> [f64; 2],
+    ) -> Vec<Dual<1>> {
+        let mut memory: DofMemory<Dual<1>> = DOF_AT_REST.map(Dual::from);
+        let mut coefficients = vec![Dual::from(0.0); self.size()];
         // a period leads onto the loop
         for is_counted in [false, true] {
             for sample in 0..self.waves.nrows() {
-                let r = self.at(&self.waves, motion, sample);
-                let v = omega * self.at(&self.slopes, motion, sample);
+                let [r_change, v_change] = change(sample);
+                let r = Dual::new(self.at(&self.waves, motion, sample), [r_change]);
+                let slope = self.at(&self.slopes, motion, sample);
+                let v = Dual::new(omega * slope, [v_change]);
                 let f = laws.load(&memory, r, v);
                 laws.commit(&mut memory, r, v);
                 if is_counted {
                     for (i, own) in coefficients.iter_mut().enumerate() {
-                        *own += self.weight() * self.waves[(sample, i)] * f;
+                        let weight = Dual::from(self.weight() * self.waves[(sample, i)]);
+                        *own = *own + weight * f;
                     }
                 }
             }

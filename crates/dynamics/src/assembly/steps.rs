@@ -70,6 +70,8 @@ struct Scratch {
     moments: [Vec<f64>; MOMENTS],
     /// ∂f/∂r and ∂f/∂ṙ of each law.
     tangents: Vec<[f64; 2]>,
+    /// Corners of a law at the beginning.
+    corners: Vec<f64>,
 }
 
 impl AssemblySteps {
@@ -164,7 +166,7 @@ impl AssemblySteps {
         let at_events = match is_finest {
             true => None,
             false if is_steep => Some(at_events),
-            false if own.has_event(&self.system, state) => at_events.checked_sub(1),
+            false if own.has_event(&self.system, rung, state) => at_events.checked_sub(1),
             false => None,
         };
         let Some(at_events) = at_events else {
@@ -264,6 +266,7 @@ impl Scratch {
             powers: std::array::from_fn(|_| vec![0.0; m + d]),
             moments: std::array::from_fn(|_| vec![0.0; m + d]),
             tangents: vec![[0.0; 2]; d],
+            corners: Vec::new(),
         }
     }
 
@@ -447,11 +450,17 @@ impl Scratch {
     }
 
     /// Whether within the step that was taken a law that remembers turns or passes a corner of its load.
-    fn has_event(&self, system: &System, before: &AssemblyState) -> bool {
-        (0..system.forces()).any(|i| self.has_event_on(system, before, i))
+    fn has_event(&mut self, system: &System, rung: &Rung, before: &AssemblyState) -> bool {
+        (0..system.forces()).any(|i| self.has_event_on(system, rung.length_s, before, i))
     }
 
-    fn has_event_on(&self, system: &System, before: &AssemblyState, i: usize) -> bool {
+    fn has_event_on(
+        &mut self,
+        system: &System,
+        length_s: f64,
+        before: &AssemblyState,
+        i: usize,
+    ) -> bool {
         let [at_begin, _, at_end] = three(system, &self.laws);
         if !at_end.on[i].have_memory() {
             return false;
@@ -461,19 +470,27 @@ impl Scratch {
         if begin[d + i] * end[d + i] < 0.0 {
             return true;
         }
-        let mut passes = false;
-        let mut look = |laws: &LawsAt| {
-            laws.on[i].corners(&before.memory[i], end[i], &mut |corner| {
+        self.corners.clear();
+        if !self.laws.is_empty() {
+            at_begin.on[i].corners(&before.memory[i], end[i], &mut |corner| {
                 if let Corner::Sharp(place) = corner {
-                    passes |= (place - begin[i]) * (end[i] - place) > 0.0;
+                    self.corners.push(place);
                 }
             });
-        };
-        look(at_end);
-        if !self.laws.is_empty() {
-            // corners move with the preload
-            look(at_begin);
         }
+        let mut passes = false;
+        let mut first = self.corners.iter();
+        at_end.on[i].corners(&before.memory[i], end[i], &mut |corner| {
+            if let Corner::Sharp(place) = corner {
+                passes |= (place - begin[i]) * (end[i] - place) > 0.0;
+                // with the preload a corner moves: what slides is on it, and sticks where the motion falls behind
+                if let Some(&was) = first.next() {
+                    let rate = (place - was) / length_s;
+                    passes |= (was - begin[i]) * (end[i] - place) > 0.0;
+                    passes |= (begin[d + i] - rate) * (end[d + i] - rate) < 0.0;
+                }
+            }
+        });
         passes
     }
 }

@@ -6,7 +6,7 @@
 
 use super::{
     ladder::{HALVINGS_AT_EVENTS, Ladder, Rung},
-    matrix::dot,
+    matrix::{Matrix, dot},
     preload::LawsAt,
     propagator::{Blocks, MOMENTS, POWERS},
     system::{Assembly, System},
@@ -190,6 +190,17 @@ impl AssemblySteps {
     }
 }
 
+/// Adds A x to `sum`, unless x is zero: loads are held as a rule, and no force is cubic.
+fn add_product(matrix: &Matrix, x: &[f64], sum: &mut [f64]) {
+    if is_there(x) {
+        matrix.add_product_to(x, sum);
+    }
+}
+
+fn is_there(x: &[f64]) -> bool {
+    x.iter().any(|&own| own != 0.0)
+}
+
 /// h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
 fn largest_angle(tolerance: f64) -> f64 {
     ANGLE_AT_A_MILLIONTH * (tolerance / MILLIONTH).sqrt().sqrt()
@@ -296,7 +307,7 @@ impl Scratch {
         end.fill(0.0);
         whole.state.add_product_to(&before.motion, end);
         for (block, power) in whole.by.iter().zip(&self.powers) {
-            block.add_product_to(power, end);
+            add_product(block, power, end);
         }
         if let Some(middle) = &rung.middle {
             let [r0, r2, r3, r4, _] = &mut self.relative;
@@ -336,7 +347,9 @@ impl Scratch {
                 self.powers[2][m + i] = 2.0 * (2.0 * f1[i] - 4.0 * middle + 2.0 * f4[i]);
             }
             for (block, power) in whole.by.iter().zip(&self.powers) {
-                block.add_product_of_tail_to(&power[m..], end);
+                if is_there(&power[m..]) {
+                    block.add_product_of_tail_to(&power[m..], end);
+                }
             }
             system.relative(end, &mut self.relative[4]);
         }
@@ -402,7 +415,7 @@ impl Scratch {
             moment.fill(0.0);
             state.add_product_to(motion, moment);
             for (block, power) in by.iter().zip(&self.powers) {
-                block.add_product_to(power, moment);
+                add_product(block, power, moment);
             }
         }
     }

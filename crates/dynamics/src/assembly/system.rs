@@ -118,14 +118,20 @@ pub(super) struct System {
     pub(super) following: Vec<Following>,
     /// S Sᵀ of these DOFs, 1/kg: accelerations by loads.
     pub(super) mobility: Matrix,
+    /// Ω², and rows and linear stiffness of each joint, which give the energy faster than K_q.
+    squares: Vec<f64>,
+    springs: Vec<[Matrix; 2]>,
 }
 
 impl System {
     pub(super) fn of(assembly: &Assembly) -> Self {
         let size = assembly.frequencies_rad_per_s.len();
         let squares = |i: usize| assembly.frequencies_rad_per_s[i].powi(2);
+        let squares: Vec<f64> = (0..size).map(squares).collect();
         let mut stiffness =
-            Matrix::from_fn(size, size, |i, j| if i == j { squares(i) } else { 0.0 });
+            Matrix::from_fn(size, size, |i, j| if i == j { squares[i] } else { 0.0 });
+        let springs = assembly.joints.iter();
+        let springs = springs.map(|joint| [joint.relative.clone(), joint.stiffness.clone()]);
         let mut damping = assembly.damping_per_s.clone();
         let mut rows: Vec<&[f64]> = Vec::new();
         let mut laws: Vec<DofLaws> = Vec::new();
@@ -166,6 +172,8 @@ impl System {
             rows,
             laws: LawsAt::propagated(laws, following.len()),
             following,
+            squares,
+            springs: springs.collect(),
         }
     }
 
@@ -187,12 +195,19 @@ impl System {
     /// ½ q̇ᵀq̇ + ½ qᵀ K_q q, J.
     pub(super) fn linear_energy(&self, state: &[f64]) -> f64 {
         let (q, rates) = state.split_at(self.size);
-        let strain: f64 = q
-            .iter()
-            .enumerate()
-            .map(|(i, q)| q * dot(self.stiffness.row(i), q_of(state, self.size)))
-            .sum();
-        0.5 * (dot(rates, rates) + strain)
+        let pairs = q.iter().zip(&self.squares);
+        let strain: f64 = pairs.map(|(q, square)| square * q * q).sum();
+        let of_joint = |[rows, stiffness]: &[Matrix; 2]| -> f64 {
+            let mut r = [0.0; SPACE_COUNT];
+            for (i, r) in r.iter_mut().enumerate().take(rows.rows()) {
+                *r = dot(rows.row(i), q);
+            }
+            let r = &r[..rows.rows().min(SPACE_COUNT)];
+            let of_row = |(i, own): (usize, &f64)| own * dot(stiffness.row(i), r);
+            r.iter().enumerate().map(of_row).sum()
+        };
+        let joints: f64 = self.springs.iter().map(of_joint).sum();
+        0.5 * (dot(rates, rates) + strain + joints)
     }
 }
 
@@ -208,8 +223,4 @@ fn in_space(matrix: &Matrix) -> [[f64; SPACE_COUNT]; SPACE_COUNT] {
             }
         })
     })
-}
-
-fn q_of(state: &[f64], size: usize) -> &[f64] {
-    &state[..size]
 }

@@ -91,7 +91,7 @@ const ALL_FRICTION: [Friction; 6] = [
 
 /// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
 /// friction, and over the preload; and assemblies.
-pub(crate) const MODELS: [Model; 24] = [
+pub(crate) const MODELS: [Model; 25] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -116,6 +116,7 @@ pub(crate) const MODELS: [Model; 24] = [
     Model::new(true, 2, 0.0).slipping(&WITH_INNER_STATE),
     Model::assembly(Laws::Cubic),
     Model::assembly(Laws::Friction),
+    Model::assembly(Laws::Preload),
 ];
 
 impl Model {
@@ -207,6 +208,14 @@ impl Model {
                 FIRST + 10,
                 FIRST + 11,
                 FIRST + 12,
+            ],
+            _ if self.assembly == Some(Laws::Preload) => &[
+                FIRST + 8,
+                FIRST + 9,
+                FIRST + 10,
+                FIRST + 12,
+                FIRST + 13,
+                FIRST + 15,
             ],
             _ if self.assembly.is_some() => &[
                 FIRST + 8,

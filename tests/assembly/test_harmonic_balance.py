@@ -22,7 +22,7 @@ def respond(run, tmp_path, joint, response):
 
 def forced(run, tmp_path, joint, extra="", load=LOAD, ends=(60, 400)):
     """Frequencies (Hz) and phasors of root and tip, and the largest displacements."""
-    text = f'kind = "harmonic-balance"\nfrom = {ends[0]}\nto = {ends[1]}\nloads.push = {{ amplitude = {load} }}\n{extra}'
+    text = f'kind = "harmonic-balance"\nfrom = {ends[0]}\nto = {ends[1]}\nloads.push.amplitude = {load}\n{extra}'
     headings, rows = respond(run, tmp_path, joint, text)
     place = {name: next(i for i, own in enumerate(headings) if own.startswith(name)) for name in ("root", "tip")}
     phasors = [rows[:, place[name]] + 1j * rows[:, place[name] + 1] for name in ("root", "tip")]
@@ -119,7 +119,7 @@ def test_a_nonlinear_mode_of_one_harmonic(run, tmp_path, joint, law, error, mode
         ({"cubic": [1e12]}, 'kind = "backbone"\nof = "tip"\namplitude = [1e-6, 1e-4]\nmode = 9', "expected 1 to 2"),
         ({"cubic": [1e12]}, 'kind = "harmonic-balance"\nfrom = 60\nto = 80', "a table for an input"),
         ({"cubic": [1e12]}, 'kind = "harmonic-balance"\nfrom = 60\nto = 80\nstep = 1', 'with kind = "history" only'),
-        ({"cubic": [1e12]}, 'kind = "linear"\nfrom = 60\nto = 80\nharmonics = 3', 'it with kind = "harmonic-balance" or'),
+        ({"cubic": [1e12]}, 'kind = "linear"\nfrom = 60\nto = 80\nharmonics = 3', 'kind = "harmonic-balance" or'),
     ],
 )
 def test_what_cannot_be_balanced_is_told(run, tmp_path, joint, response, told):
@@ -140,12 +140,14 @@ def test_a_law_that_depends_on_the_rate_is_told(run, tmp_path):
         "static_force": 25.0,
         "stribeck_velocity": 0.01,
     }
-    path = small.write(tmp_path, {"friction": [law]}, '[response]\nkind = "harmonic-balance"\nfrom = 60\nto = 80\nloads.push.amplitude = 1')
+    response = '[response]\nkind = "harmonic-balance"\nfrom = 60\nto = 80\nloads.push.amplitude = 1'
+    path = small.write(tmp_path, {"friction": [law]}, response)
     done = run("respond", path, "-o", tmp_path / "x.csv", expect=1)
     assert "found the law lugre" in done.stderr
 
 
-# Cases of others, whose numbers are public: a wall holds what they fix to the ground, and gives way by a femtometre per newton.
+# Cases of others, whose numbers are public: a wall holds what they fix to the ground, and gives way by a femtometre per
+# newton.
 
 CHAIN = """name = "chain"
 [structures.chain]
@@ -218,7 +220,7 @@ def balanced(matrices, directions, cubics, load, omega, start, harmonics=7):
 
 
 def test_nlvib_s_two_masses_with_cubic_springs(run, tmp_path):
-    """NLvib 1.3, example 02 (Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems, 2019): H = 7, 0.8 to 1.4 rad/s."""
+    """NLvib 1.3, example 02 (Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems, 2019), H = 7."""
     matrices = (np.diag([1, 0.05]), [[0.015, -0.013], [-0.013, 0.013]], [[1.0453, -0.0453], [-0.0453, 0.0453]])
     ends = np.array([0.8, 1.4]) / (2 * np.pi)
     response = f'kind = "harmonic-balance"\nfrom = {ends[0]}\nto = {ends[1]}\nloads.push.amplitude = 0.11'

@@ -1,4 +1,4 @@
-"""Joints of an assembly over the preload of their bolt: the FMU has it as an input, beside SciPy and beside the element's FMU."""
+"""Joints of an assembly over the preload of their bolt, an input of the FMU, beside SciPy and the element's FMU."""
 
 import json
 
@@ -117,7 +117,7 @@ def test_a_ramp_is_that_of_scipy(slave, tmp_path, step):
 @both_versions
 @pytest.mark.parametrize("step", [1e-5, 2e-4])
 def test_a_preload_that_jumps_is_that_of_scipy(slave, tmp_path, step):
-    """From one within the table to another each two milliseconds: held meanwhile, so that steps are prepared for some of them."""
+    """From one within the table to another each two milliseconds, and held meanwhile: steps are prepared for some."""
     fmu = slave(write(tmp_path))
     fmu.initialise(**{"push.F": LOAD})
     state, before = np.zeros(7), NOMINAL

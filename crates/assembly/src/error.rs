@@ -40,6 +40,41 @@ pub enum AssemblyError {
         /// Frequency, Hz.
         frequency_hz: f64,
     },
+    /// No periodic motion was found.
+    #[error(
+        "harmonic balance finds no motion of the assembly near {frequency_hz} Hz; begin elsewhere, with less load or at a smaller \
+         amplitude, or take more harmonics"
+    )]
+    NotBalanced {
+        /// Frequency, Hz.
+        frequency_hz: f64,
+    },
+    /// There is no such mode.
+    #[error(
+        "`response.mode`: found {mode}, expected 1 to {found}, the number of modes that oscillate"
+    )]
+    NoMode {
+        /// The one that was asked for, from 1.
+        mode: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// All joints are linear.
+    #[error(
+        "`response.kind`: found harmonic balance of an assembly whose joints are all linear, expected a joint with a law beside \
+         stiffness and damping; take `linear` or `modes`"
+    )]
+    NothingNonlinear,
+    /// A law whose load depends on how fast it slips.
+    #[error(
+        "joint {name}: found the law {law}, expected one whose load does not depend on how fast it slips; take `history`"
+    )]
+    Rate {
+        /// Name of the joint.
+        name: String,
+        /// Name of the law.
+        law: String,
+    },
     /// Joints too stiff for the step.
     #[error(
         "the joints are so stiff at {time_s} s that 4096 parts of a step of {step_s} s are too long for them; choose a shorter `response.step`"

@@ -6,6 +6,7 @@
 
 mod error;
 mod freedom;
+mod harmonic;
 mod linear;
 mod modal_form;
 mod model;
@@ -17,6 +18,7 @@ mod structure;
 mod tables;
 
 pub use error::AssemblyError;
+pub use harmonic::{ForcedPoint, FreePoint};
 pub use linear::AssemblyMode;
 pub use modal_form::ModalForm;
 pub use model::{AssemblyModel, NamedStructure, PlacedJoint};

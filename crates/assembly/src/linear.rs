@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use bolted_joint_dynamics::assembly::Assembly;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
@@ -17,11 +18,12 @@ pub struct AssemblyMode {
     pub damping_ratio: f64,
 }
 
-/// K and C of all joints of small motion about rest, on the diagonal of blocks, and their relative motions.
-struct Joints {
-    stiffness: DMatrix<f64>,
-    damping: DMatrix<f64>,
-    relative: DMatrix<f64>,
+/// K and C of all joints, on the diagonal of blocks, and their relative motions.
+#[derive(Clone, Debug)]
+pub(crate) struct Joints {
+    pub(crate) stiffness: DMatrix<f64>,
+    pub(crate) damping: DMatrix<f64>,
+    pub(crate) relative: DMatrix<f64>,
 }
 
 impl AssemblyModel {
@@ -77,8 +79,17 @@ impl AssemblyModel {
         Some(&outputs * by_inputs - &outputs * by_joints * loads)
     }
 
-    /// (Ω² + jωC − ω²)⁻¹ of each structure times its part of loads on all coordinates.
     fn motion(&self, omega: f64, loads: &DMatrix<Complex64>) -> Option<DMatrix<Complex64>> {
+        self.motion_released(omega, 0.0, loads)
+    }
+
+    /// (Ω² + jω(C − c) − ω²)⁻¹ of each structure times its part of loads on all coordinates, c of all masses alike (1/s).
+    pub(crate) fn motion_released(
+        &self,
+        omega: f64,
+        released_per_s: f64,
+        loads: &DMatrix<Complex64>,
+    ) -> Option<DMatrix<Complex64>> {
         let mut motion = DMatrix::zeros(loads.nrows(), loads.ncols());
         let mut first = 0;
         for structure in &self.structures {
@@ -86,7 +97,7 @@ impl AssemblyModel {
             let own = loads.rows(first, count).into_owned();
             motion
                 .rows_mut(first, count)
-                .copy_from(&structure.form.motion(omega, &own)?);
+                .copy_from(&structure.form.motion(omega, released_per_s, &own)?);
             first += count;
         }
         Some(motion)
@@ -140,6 +151,30 @@ impl AssemblyModel {
             .collect();
         modes.sort_by(|one, other| one.frequency_hz.total_cmp(&other.frequency_hz));
         Ok(modes)
+    }
+
+    /// The linear laws of all joints alone.
+    pub(crate) fn linear_joints(&self, equations: &Assembly) -> Joints {
+        let total = equations.joints.iter().map(|joint| joint.laws.len()).sum();
+        let mut all = Joints {
+            stiffness: DMatrix::zeros(total, total),
+            damping: DMatrix::zeros(total, total),
+            relative: DMatrix::zeros(total, self.size()),
+        };
+        let mut first = 0;
+        for (own, joint) in equations.joints.iter().zip(&self.joints) {
+            let count = own.laws.len();
+            let relative = self.relative_rows(joint);
+            all.relative.rows_mut(first, count).copy_from(&relative);
+            for i in 0..count {
+                for j in 0..count {
+                    all.stiffness[(first + i, first + j)] = own.stiffness[(i, j)];
+                    all.damping[(first + i, first + j)] = own.damping[(i, j)];
+                }
+            }
+            first += count;
+        }
+        all
     }
 
     fn joints_of_small_motion(&self) -> Result<Joints, AssemblyError> {

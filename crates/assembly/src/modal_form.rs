@@ -45,15 +45,16 @@ impl ModalForm {
         frequencies.filter(|&&frequency| frequency == 0.0).count()
     }
 
-    /// (Ω² + jωC − ω²)⁻¹ times loads on the coordinates; `None` at an undamped resonance.
+    /// (Ω² + jω(C − c) − ω²)⁻¹ times loads on the coordinates; `None` at an undamped resonance.
     pub(crate) fn motion(
         &self,
         omega: f64,
+        released_per_s: f64,
         loads: &DMatrix<Complex64>,
     ) -> Option<DMatrix<Complex64>> {
         let own = |i: usize| {
             let natural = self.frequency_rad_per_s[i];
-            let damping = self.damping_per_s[(i, i)];
+            let damping = self.damping_per_s[(i, i)] - released_per_s;
             Complex64::new(natural * natural - omega * omega, omega * damping)
         };
         if self.is_modal() {

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use bolted_joint_dynamics::assembly::{Assembly, AssemblyJoint, Matrix};
-use bolted_joint_dynamics::{JointLaw, with_dofs};
-use bolted_joint_joint::JointFile;
+use bolted_joint_dynamics::assembly::{Assembly, AssemblyJoint, LawOverPreload, Matrix};
+use bolted_joint_dynamics::{Beyond, JointLaw, with_dofs};
+use bolted_joint_joint::{JointFile, LawError, OverPreload};
 use nalgebra::DMatrix;
 
 use crate::error::AssemblyError;
@@ -30,6 +30,8 @@ pub struct PlacedJoint {
     pub path: PathBuf,
     /// What the file says, at the preload that is asked for.
     pub file: JointFile,
+    /// The whole file, of a joint over the preload of which no preload is asked for: `file` has it at its nominal one.
+    pub over_preload: Option<JointFile>,
     /// Where each of its degrees of freedom is on sides a and b, in the joint's order.
     pub places: [Vec<Place>; 2],
 }
@@ -74,12 +76,46 @@ impl PlacedJoint {
         })
     }
 
+    /// The file as it is to follow the preload, or as it is at the one that is asked for.
+    #[must_use]
+    pub fn whole(&self) -> &JointFile {
+        self.over_preload.as_ref().unwrap_or(&self.file)
+    }
+
+    /// The table over the preload, where none is asked for.
+    #[must_use]
+    pub fn table(&self) -> Option<&OverPreload> {
+        self.over_preload.as_ref()?.joint.over_preload.as_ref()
+    }
+
+    /// The law that follows the preload, where none is asked for; `None` of other joints.
+    ///
+    /// # Errors
+    /// [`AssemblyError::Law`] where more of it depends on the preload than can follow one that moves.
+    pub fn law_over_preload(
+        &self,
+        beyond: Beyond,
+    ) -> Result<Option<LawOverPreload>, AssemblyError> {
+        let Some(whole) = &self.over_preload else {
+            return Ok(None);
+        };
+        let law = with_dofs!(whole.joint.dofs.size(), D => {
+            let law = whole.joint.law_over_preload::<D>(beyond);
+            law.and_then(|law| law.widened().map_err(LawError::Table))
+        });
+        law.map(Some).map_err(|source| self.refused(source))
+    }
+
     fn law_of<const D: usize>(&self) -> Result<JointLaw<D>, AssemblyError> {
         let law = self.file.joint.law::<D>();
-        law.map_err(|source| AssemblyError::Law {
+        law.map_err(|source| self.refused(source))
+    }
+
+    fn refused(&self, source: LawError) -> AssemblyError {
+        AssemblyError::Law {
             path: self.path.display().to_string(),
             source: Box::new(source),
-        })
+        }
     }
 }
 
@@ -129,7 +165,20 @@ impl AssemblyModel {
         a - b
     }
 
-    /// The equations that are integrated.
+    /// The equations that are integrated, with joints that follow the preload where no preload is asked for: they are about
+    /// their nominal one.
+    ///
+    /// # Errors
+    /// [`AssemblyError::Law`] where a joint gives no law.
+    pub fn equations_over_preload(&self, beyond: Beyond) -> Result<Assembly, AssemblyError> {
+        let mut assembly = self.equations()?;
+        for (own, joint) in assembly.joints.iter_mut().zip(&self.joints) {
+            own.over_preload = joint.law_over_preload(beyond)?.map(Box::new);
+        }
+        Ok(assembly)
+    }
+
+    /// The equations that are integrated where every preload stays what it is.
     ///
     /// # Errors
     /// [`AssemblyError::Law`] where a joint gives no law.
@@ -163,6 +212,7 @@ impl AssemblyModel {
                 stiffness: Matrix::from_fn(D, D, |i, j| law.linear.stiffness[i][j]),
                 damping: Matrix::from_fn(D, D, |i, j| law.linear.damping[i][j]),
                 laws: law.on.to_vec(),
+                over_preload: None,
             })
         })
     }

@@ -72,7 +72,7 @@ impl AssemblyModel {
         let outputs = reader.channels("outputs", tables.outputs)?;
         let response = tables
             .response
-            .map(|table| Response::of(text, table, &inputs));
+            .map(|table| Response::of(text, table, &inputs, &outputs));
         let mut model = Self {
             path: text.path().to_owned(),
             name: tables.name,
@@ -114,7 +114,10 @@ impl Reader<'_> {
         let text = self.text;
         let key = format!("joints.{place}");
         let path = text.resolved(&table.file);
-        let file = JointFile::read(&path)?;
+        let whole = JointFile::read(&path)?;
+        let over_preload =
+            (whole.joint.over_preload.is_some() && table.preload.is_none()).then(|| whole.clone());
+        let file = whole;
         let file = match (&file.joint.over_preload, table.preload) {
             (None, None) => file,
             _ => file
@@ -177,6 +180,7 @@ impl Reader<'_> {
             name,
             path,
             file,
+            over_preload,
             places: [a, b],
         })
     }

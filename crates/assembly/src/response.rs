@@ -1,9 +1,10 @@
-//! What `respond` computes of an assembly: receptances, modes, or a history under loads.
+//! What `respond` computes of an assembly: receptances, modes, a history under loads, or periodic motion.
 
 use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::assembly::{AssemblySteps, TOLERANCE};
 use bolted_joint_study::{StudyError, StudyText};
+use num_complex::Complex64;
 
 use crate::error::AssemblyError;
 use crate::model::AssemblyModel;
@@ -13,6 +14,9 @@ use crate::tables::{ResponseKind, ResponseTable};
 /// Lines where nothing is said, and more than anybody draws.
 const LINES: usize = 1000;
 const MOST_LINES: usize = 1_000_000;
+/// The highest harmonic where nothing is said, and at most.
+const HARMONICS: usize = 7;
+const MOST_HARMONICS: usize = 99;
 /// More steps than anybody waits for.
 const MOST_STEPS: f64 = 1e7;
 
@@ -74,6 +78,26 @@ pub enum Response {
         /// What each input does; `None` of one that stays zero.
         loads: Vec<Option<LoadCourse>>,
     },
+    /// Periodic responses to loads of one frequency, by harmonic balance.
+    HarmonicBalance {
+        /// First and last frequency, Hz.
+        ends_hz: [f64; 2],
+        /// Each input as a phasor, N or N·m.
+        loads: Vec<Complex64>,
+        /// The highest harmonic.
+        harmonics: usize,
+    },
+    /// A mode over its amplitude, by harmonic balance.
+    Backbone {
+        /// Which mode, from 0.
+        mode: usize,
+        /// The output whose amplitude it is.
+        output: usize,
+        /// First and last amplitude, m or rad.
+        ends: [f64; 2],
+        /// The highest harmonic.
+        harmonics: usize,
+    },
 }
 
 impl Response {
@@ -81,18 +105,57 @@ impl Response {
         text: &StudyText,
         table: ResponseTable,
         inputs: &[Channel],
+        outputs: &[Channel],
     ) -> Result<Self, StudyError> {
-        let is_linear = table.kind == ResponseKind::Linear;
-        let is_history = table.kind == ResponseKind::History;
+        use ResponseKind::{Backbone, HarmonicBalance, History, Linear};
+        let of = |kinds: &[ResponseKind]| kinds.contains(&table.kind);
+        let [linear, history, backbone] = ["\"linear\"", "\"history\"", "\"backbone\""];
+        let swept = "\"linear\" or \"harmonic-balance\"";
+        let loaded = "\"history\" or \"harmonic-balance\"";
+        let balanced = "\"harmonic-balance\" or \"backbone\"";
         for (key, there, belongs, to) in [
-            ("from", table.from.is_some(), is_linear, "linear"),
-            ("to", table.to.is_some(), is_linear, "linear"),
-            ("lines", table.lines.is_some(), is_linear, "linear"),
-            ("duration", table.duration.is_some(), is_history, "history"),
-            ("step", table.step.is_some(), is_history, "history"),
-            ("loads", !table.loads.is_empty(), is_history, "history"),
+            (
+                "from",
+                table.from.is_some(),
+                of(&[Linear, HarmonicBalance]),
+                swept,
+            ),
+            (
+                "to",
+                table.to.is_some(),
+                of(&[Linear, HarmonicBalance]),
+                swept,
+            ),
+            ("lines", table.lines.is_some(), of(&[Linear]), linear),
+            (
+                "duration",
+                table.duration.is_some(),
+                of(&[History]),
+                history,
+            ),
+            ("step", table.step.is_some(), of(&[History]), history),
+            (
+                "loads",
+                !table.loads.is_empty(),
+                of(&[History, HarmonicBalance]),
+                loaded,
+            ),
+            (
+                "harmonics",
+                table.harmonics.is_some(),
+                of(&[HarmonicBalance, Backbone]),
+                balanced,
+            ),
+            ("mode", table.mode.is_some(), of(&[Backbone]), backbone),
+            ("of", table.of.is_some(), of(&[Backbone]), backbone),
+            (
+                "amplitude",
+                table.amplitude.is_some(),
+                of(&[Backbone]),
+                backbone,
+            ),
         ] {
-            let expected = format_args!("it with kind = \"{to}\" only");
+            let expected = format_args!("it with kind = {to} only");
             text.ensure(
                 !there || belongs,
                 format_args!("response.{key}"),
@@ -118,7 +181,107 @@ impl Response {
                 }))
             }
             ResponseKind::History => Self::history(text, table, inputs),
+            ResponseKind::HarmonicBalance => Self::harmonic_balance(text, table, inputs),
+            ResponseKind::Backbone => Self::backbone(text, table, outputs),
         }
+    }
+
+    fn harmonics(text: &StudyText, table: &ResponseTable) -> Result<usize, StudyError> {
+        let harmonics = table.harmonics.unwrap_or(HARMONICS);
+        let expected = format_args!("1 to {MOST_HARMONICS}, the highest harmonic");
+        text.within(
+            "response.harmonics",
+            harmonics,
+            1..=MOST_HARMONICS,
+            expected,
+        )?;
+        Ok(harmonics)
+    }
+
+    fn harmonic_balance(
+        text: &StudyText,
+        table: ResponseTable,
+        inputs: &[Channel],
+    ) -> Result<Self, StudyError> {
+        let needed = "a frequency in Hz";
+        let from = text.needed("response.from", table.from, needed)?;
+        let to = text.needed("response.to", table.to, needed)?;
+        let ends_hz = [
+            text.positive("response.from", from, needed)?,
+            text.positive("response.to", to, needed)?,
+        ];
+        let expected = format_args!("another frequency than `from`, {from} Hz");
+        text.ensure(from != to, "response.to", to, expected)?;
+        let harmonics = Self::harmonics(text, &table)?;
+        let mut loads = vec![Complex64::ZERO; inputs.len()];
+        for (name, load) in &table.loads {
+            let (key, place) = load_place(text, name, inputs)?;
+            for (other, there) in [("frequency", load.frequency), ("until", load.until)] {
+                let expected = "it with kind = \"history\" only";
+                text.ensure(
+                    there.is_none(),
+                    format_args!("{key}.{other}"),
+                    "it",
+                    expected,
+                )?;
+            }
+            let phase = load.phase.unwrap_or(0.0);
+            let is_finite = load.amplitude.is_finite() && phase.is_finite();
+            text.ensure(
+                is_finite,
+                &key,
+                load.amplitude,
+                "a load in N or N·m, and a phase in degrees",
+            )?;
+            loads[place] = Complex64::from_polar(1.0, phase.to_radians()) * load.amplitude;
+        }
+        text.ensure(
+            loads.iter().any(|load| load.norm() > 0.0),
+            "response.loads",
+            "none",
+            "a table for an input, such as loads.push = { amplitude = 10 }",
+        )?;
+        Ok(Self::HarmonicBalance {
+            ends_hz,
+            loads,
+            harmonics,
+        })
+    }
+
+    fn backbone(
+        text: &StudyText,
+        table: ResponseTable,
+        outputs: &[Channel],
+    ) -> Result<Self, StudyError> {
+        let harmonics = Self::harmonics(text, &table)?;
+        let mode = table.mode.unwrap_or(1);
+        text.ensure(
+            mode > 0,
+            "response.mode",
+            mode,
+            "the number of a mode, from 1",
+        )?;
+        let names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+        let expected = format_args!("one of the outputs: {}", names.join(", "));
+        let of = text.needed("response.of", table.of, expected)?;
+        let output = outputs.iter().position(|output| output.name == of);
+        let output = text.needed("response.of", output, expected)?;
+        let expected = "two amplitudes in m or rad, such as amplitude = [1e-6, 1e-4]";
+        let ends = text.needed("response.amplitude", table.amplitude, expected)?;
+        let [from, to] = ends;
+        let are_good = from > 0.0 && to > 0.0 && from != to && from.is_finite() && to.is_finite();
+        text.ensure(
+            are_good,
+            "response.amplitude",
+            format_args!("{ends:?}"),
+            expected,
+        )?;
+        Ok(Self::Backbone {
+            mode: mode - 1,
+            output,
+            ends,
+            harmonics,
+        })
     }
 
     fn history(
@@ -138,13 +301,12 @@ impl Response {
         )?;
         let mut loads = vec![None; inputs.len()];
         for (name, load) in table.loads {
-            let key = format!("response.loads.{name}");
-            let place = inputs.iter().position(|input| input.name == name);
-            let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-            let place = text.needed(
-                &key,
-                place,
-                format_args!("one of the inputs: {}", names.join(", ")),
+            let (key, place) = load_place(text, &name, inputs)?;
+            text.ensure(
+                load.phase.is_none(),
+                format_args!("{key}.phase"),
+                "it",
+                "it with kind = \"harmonic-balance\" only",
             )?;
             text.ensure(
                 load.amplitude.is_finite(),
@@ -171,6 +333,20 @@ impl Response {
             loads,
         })
     }
+}
+
+/// Key and place of the input that a load is of.
+fn load_place(
+    text: &StudyText,
+    name: &str,
+    inputs: &[Channel],
+) -> Result<(String, usize), StudyError> {
+    let key = format!("response.loads.{name}");
+    let place = inputs.iter().position(|input| input.name == name);
+    let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+    let expected = format_args!("one of the inputs: {}", names.join(", "));
+    let place = text.needed(&key, place, expected)?;
+    Ok((key, place))
 }
 
 impl AssemblyModel {

@@ -80,6 +80,10 @@ pub(crate) struct ResponseTable {
     pub(crate) step: Option<f64>,
     #[serde(default)]
     pub(crate) loads: BTreeMap<String, LoadTable>,
+    pub(crate) harmonics: Option<usize>,
+    pub(crate) mode: Option<usize>,
+    pub(crate) of: Option<String>,
+    pub(crate) amplitude: Option<[f64; 2]>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -88,6 +92,8 @@ pub(crate) enum ResponseKind {
     Linear,
     Modes,
     History,
+    HarmonicBalance,
+    Backbone,
 }
 
 #[derive(Deserialize)]
@@ -96,4 +102,5 @@ pub(crate) struct LoadTable {
     pub(crate) amplitude: f64,
     pub(crate) frequency: Option<f64>,
     pub(crate) until: Option<f64>,
+    pub(crate) phase: Option<f64>,
 }

@@ -10,17 +10,19 @@
 //! | `loads N`, then N lines | how each load acts on the coordinates |
 //! | `motions N`, then N lines | what the coordinates are of each motion |
 //! | `joints N` | each: `joint`, its name and its DOFs; as many lines of S; K and C row by row; `laws N`, then N lines of the \
-//!   name of a parameter and its value |
+//!   name of a parameter and its value; of a joint over the preload its table as in the files of other models, and what stands \
+//!   before of it are laws that remember |
 
 use bolted_joint_dynamics::{
     DOFS, DofLaws, SPACE,
-    assembly::{Assembly, AssemblyJoint, Matrix},
-    law::{DOF_PARAMETER_COUNT, dof_parameters},
+    assembly::{Assembly, AssemblyJoint, LawOverPreload, Matrix},
+    law::{DOF_PARAMETER_COUNT, Declaration, dof_parameters},
 };
 
 use crate::{
     interface::{ContinuousState, FIRST_LISTED, ListedVariables, Name, Role, Variable},
     models::AssemblyLayout,
+    preload_table::{self, TableFriction},
     start_file::{Fault, Header, StartFileError},
 };
 
@@ -52,13 +54,24 @@ pub(crate) fn parse(
     let states = self::count(header, "states ", "\"states\" and their number")?;
     let expected = "places of a state and of its derivative, and its typical magnitude";
     let states = header.lines(states, expected, state)?;
-    let file = AssemblyFile::parse(header)?;
+    let mut file = AssemblyFile::parse(header)?;
     if !header.is_at_end() {
         return header.next("", "the end of the file", |_| None);
     }
-    let laws = file.assembly.joints.iter().flat_map(|joint| &joint.laws);
-    let remembering = laws.filter(|laws| !laws.are_none()).count();
+    let remembering = file.assembly.laws().count() + file.assembly.over_preload().count();
     let layout = AssemblyLayout::of(&file);
+    let preloads = variables.get(layout.preloads.clone()).unwrap_or_default();
+    let preloads: Vec<f64> = preloads.iter().map(|own| own.start).collect();
+    let are_covered = {
+        let mut pairs = file.assembly.over_preload().zip(&preloads);
+        pairs.all(|(law, &preload_n_m)| law.covers(preload_n_m))
+    };
+    if !are_covered {
+        return Err(header.refuse_here(Fault::Contradiction {
+            what: "found a preload at the start that is beyond its table, expected one within",
+        }));
+    }
+    file.assembly = file.assembly.about(&preloads);
     let roles: Vec<Role> = variables.iter().map(|own| own.role).collect();
     let listed = ListedVariables::new(variables, states, apart, remembering);
     match listed.filter(|_| layout.agrees(&roles, apart)) {
@@ -220,11 +233,24 @@ fn joint(header: &mut Header<'_>, size: usize) -> Result<(String, AssemblyJoint)
             what: "found a parameter outside of the range of its law",
         }));
     }
+    let remembering = laws_with_memory(&laws);
+    let over_preload = header.table_of(count, &remembering, |rows, beyond, friction| {
+        let places: Vec<usize> = (0..count).collect();
+        let law: LawOverPreload = preload_table::joint(&places, rows, beyond, friction)?;
+        Ok(match friction {
+            TableFriction::At(nominal_n_m) => {
+                let on = std::array::from_fn(|i| laws.get(i).copied().unwrap_or(DofLaws::NONE));
+                law.with_friction(on, nominal_n_m)
+            }
+            TableFriction::None | TableFriction::InLines(_) => law,
+        })
+    })?;
     let joint = AssemblyJoint {
         relative,
         stiffness,
         damping,
         laws,
+        over_preload: over_preload.map(Box::new),
     };
     Ok((name, joint))
 }
@@ -253,4 +279,17 @@ fn parameter(name: &str, dofs: &[usize]) -> Option<(usize, usize)> {
         )| { law.variable(parameter.symbol, DOFS[row].name) == name };
         Some((dof, dof_parameters().position(named)?))
     })
+}
+
+/// The laws that remember which have a parameter on any of these degrees of freedom, in the order in which laws are declared.
+fn laws_with_memory(on: &[DofLaws]) -> Vec<&'static Declaration> {
+    let mut all: Vec<&'static Declaration> = Vec::new();
+    for (place, (law, _)) in dof_parameters().enumerate() {
+        let is_there = on.iter().any(|laws| laws.parameters()[place] != 0.0);
+        let is_new = |last: &&Declaration| (last.name, last.number) != (law.name, law.number);
+        if law.remembers() && is_there && all.last().is_none_or(is_new) {
+            all.push(law);
+        }
+    }
+    all
 }

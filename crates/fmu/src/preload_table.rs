@@ -59,13 +59,7 @@ impl TableFriction<'_> {
 }
 
 impl PreloadTable {
-    /// Numbers in a row: the preload, the upper triangles of K and C row by row, k3, and friction.
-    pub(crate) fn columns(dofs: Dofs, friction: TableFriction<'_>) -> usize {
-        let order = dofs.count();
-        1 + order * (order + 1) + order + order * friction.count()
-    }
-
-    /// The joint through these rows, each of [`PreloadTable::columns`] numbers.
+    /// The joint through these rows, each of as many numbers as [`columns`] says.
     pub(crate) fn new(
         dofs: Dofs,
         rows: &[Vec<f64>],
@@ -114,40 +108,56 @@ impl PreloadTable {
     }
 }
 
+/// Numbers in a row: the preload, the upper triangles of K and C row by row, k3, and friction.
+pub(crate) fn columns(dofs: usize, friction: TableFriction<'_>) -> usize {
+    1 + dofs * (dofs + 1) + dofs + dofs * friction.count()
+}
+
 fn over_preload<const D: usize>(
     dofs: Dofs,
     rows: &[Vec<f64>],
     beyond: Beyond,
     friction: TableFriction<'_>,
 ) -> Result<OverPreload<D>, TableDefect> {
-    let table: Vec<_> = rows.iter().filter_map(|row| law(dofs, row)).collect();
-    let joint = JointOverPreload::new(&table, beyond)?;
-    Ok(match friction {
-        TableFriction::None => OverPreload {
-            joint,
-            friction: FrictionOf::Nothing,
+    let places: Vec<usize> = dofs.places().collect();
+    Ok(OverPreload {
+        joint: joint(&places, rows, beyond, friction)?,
+        friction: match friction {
+            TableFriction::None => FrictionOf::Nothing,
+            TableFriction::At(nominal_n_m) => FrictionOf::Parameters { nominal_n_m },
+            TableFriction::InLines(_) => FrictionOf::Table,
         },
-        TableFriction::At(nominal_n_m) => OverPreload {
-            joint,
-            friction: FrictionOf::Parameters { nominal_n_m },
-        },
-        TableFriction::InLines(laws) => {
-            let behind = PreloadTable::columns(dofs, TableFriction::None);
-            let own = |row: &Vec<f64>| sliders(dofs, laws, row.get(behind..).unwrap_or_default());
-            let entries: Vec<_> = rows.iter().map(own).collect();
-            OverPreload {
-                joint: joint.with_friction_table(&entries)?,
-                friction: FrictionOf::Table,
-            }
-        }
     })
 }
 
+/// The joint through these rows, each of as many numbers as [`columns`] says, with its degrees of freedom at these places, and
+/// with the friction that is in the rows.
+pub(crate) fn joint<const D: usize>(
+    places: &[usize],
+    rows: &[Vec<f64>],
+    beyond: Beyond,
+    friction: TableFriction<'_>,
+) -> Result<JointOverPreload<D>, TableDefect> {
+    let table: Vec<_> = rows.iter().filter_map(|row| law(places, row)).collect();
+    let joint = JointOverPreload::new(&table, beyond)?;
+    let TableFriction::InLines(laws) = friction else {
+        return Ok(joint);
+    };
+    let behind = columns(places.len(), TableFriction::None);
+    let own = |row: &Vec<f64>| sliders(places, laws, row.get(behind..).unwrap_or_default());
+    let entries: Vec<_> = rows.iter().map(own).collect();
+    joint.with_friction_table(&entries)
+}
+
 /// The laws on each DOF, by the numbers of a row behind those of springs and dampers.
-fn sliders<const D: usize>(dofs: Dofs, laws: &[&Declaration], numbers: &[f64]) -> [DofLaws; D] {
+fn sliders<const D: usize>(
+    places: &[usize],
+    laws: &[&Declaration],
+    numbers: &[f64],
+) -> [DofLaws; D] {
     let mut numbers = numbers.iter().copied();
     let mut on = [[0.0; DOF_PARAMETER_COUNT]; D];
-    for place in dofs.places() {
+    for &place in places {
         for law in laws {
             let mut own = on[place].iter_mut().zip(dof_parameters());
             own.by_ref()
@@ -170,13 +180,13 @@ impl<const D: usize> OverPreload<D> {
 }
 
 /// Preload and law of one row.
-fn law<const D: usize>(dofs: Dofs, row: &[f64]) -> Option<(f64, JointLaw<D>)> {
+fn law<const D: usize>(places: &[usize], row: &[f64]) -> Option<(f64, JointLaw<D>)> {
     let mut numbers = row.iter().copied();
     let preload_n_m = numbers.next()?;
     let mut matrix = || {
         let mut matrix = [[0.0; D]; D];
-        for (n, i) in dofs.places().enumerate() {
-            for j in dofs.places().skip(n) {
+        for (n, &i) in places.iter().enumerate() {
+            for &j in places.iter().skip(n) {
                 matrix[i][j] = numbers.next()?;
                 matrix[j][i] = matrix[i][j];
             }
@@ -188,7 +198,7 @@ fn law<const D: usize>(dofs: Dofs, row: &[f64]) -> Option<(f64, JointLaw<D>)> {
         damping: matrix()?,
     };
     let mut cubic = [Polynomial::NONE; D];
-    for i in dofs.places() {
+    for &i in places {
         cubic[i] = Polynomial::cubic(numbers.next()?);
     }
     Some((preload_n_m, linear.beside(cubic)))

@@ -7,7 +7,7 @@ use bolted_joint_dynamics::{Beyond, TableDefect, law::Declaration};
 use crate::{
     assembly_file::{self, AssemblyFile},
     interface::{BuiltVariables, Dependence, Dofs, Kind, Name, Role, Values, Variables, reference},
-    preload_table::{PreloadTable, TableFriction},
+    preload_table::{PreloadTable, TableFriction, columns},
 };
 
 /// First line of every start-value file.
@@ -290,11 +290,23 @@ impl Header<'_> {
 
     /// The table of a joint over the preload, if there is one: how many lines, what is beyond them, of a joint that remembers
     /// by these laws the preload that they are stated at or that they are in the lines, and the lines.
-    pub(crate) fn table(
+    fn table(
         &mut self,
         dofs: Dofs,
         laws: &[&'static Declaration],
     ) -> Result<Option<PreloadTable>, StartFileError> {
+        self.table_of(dofs.count(), laws, |rows, beyond, friction| {
+            PreloadTable::new(dofs, rows, beyond, friction)
+        })
+    }
+
+    /// The same of so many degrees of freedom, and what `of` makes of its lines, of what is beyond, and of its friction.
+    pub(crate) fn table_of<T>(
+        &mut self,
+        dofs: usize,
+        laws: &[&'static Declaration],
+        of: impl FnOnce(&[Vec<f64>], Beyond, TableFriction<'_>) -> Result<T, TableDefect>,
+    ) -> Result<Option<T>, StartFileError> {
         const EXPECTED: &str = "\"table\", the number of its lines, \"refused\" or \"held\", and with laws the preload of these or \
                                 \"friction\"";
         if !self.goes_on_with("table ") {
@@ -321,7 +333,7 @@ impl Header<'_> {
             words.next().is_none().then_some((count, beyond, friction))
         })?;
         let heading = self.line;
-        let columns = PreloadTable::columns(dofs, friction);
+        let columns = columns(dofs, friction);
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for _ in 0..count {
             self.line += 1;
@@ -334,7 +346,7 @@ impl Header<'_> {
                 }
             }
         }
-        let table = PreloadTable::new(dofs, &rows, beyond, friction);
+        let table = of(&rows, beyond, friction);
         table
             .map(Some)
             .map_err(|defect| self.refuse(heading, Fault::Table(defect)))

@@ -1,6 +1,9 @@
-//! How a whole assembly answers: its receptances, its modes, or its motion under loads, as a table and a picture.
+//! How a whole assembly answers: its receptances, its modes, its motion under loads, or its periodic motions, as a table and a
+//! picture.
 
-use bolted_joint_assembly::{AssemblyError, AssemblyMode, AssemblyModel, Channel, Response};
+use bolted_joint_assembly::{
+    AssemblyError, AssemblyMode, AssemblyModel, Channel, ForcedPoint, FreePoint, Response,
+};
 use bolted_joint_dynamics::DofKind;
 use bolted_joint_figures::{ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
@@ -39,6 +42,23 @@ impl AssemblyAnswer {
         let modes = model.modes()?;
         match response {
             Response::Modes => Ok(Self::of_modes(modes)),
+            Response::HarmonicBalance {
+                ends_hz,
+                loads,
+                harmonics,
+            } => {
+                let points = model.forced_response(loads, *ends_hz, *harmonics, progress)?;
+                Ok(Self::of_forced(model, modes, &points))
+            }
+            Response::Backbone {
+                mode,
+                output,
+                ends,
+                harmonics,
+            } => {
+                let points = model.nonlinear_mode(*mode, *output, *ends, *harmonics, progress)?;
+                Ok(Self::of_backbone(&model.outputs[*output], modes, &points))
+            }
             Response::Linear(span) => {
                 let frequency_hz = span.frequency_hz();
                 let receptances = model.receptances(&frequency_hz)?;
@@ -71,6 +91,58 @@ impl AssemblyAnswer {
                     panels,
                 })
             }
+        }
+    }
+
+    fn of_forced(model: &AssemblyModel, modes: Vec<AssemblyMode>, points: &[ForcedPoint]) -> Self {
+        let row = |point: &ForcedPoint| {
+            let outputs = point.fundamental.iter().zip(&point.largest);
+            let all = outputs.flat_map(|(y, largest)| [y.re, y.im, *largest]);
+            std::iter::once(point.frequency_hz).chain(all).collect()
+        };
+        let mut columns = vec![column("frequency", "Hz", Role::Across)];
+        let mut panels = Vec::new();
+        for output in &model.outputs {
+            let unit = displacement_unit(output);
+            for (part, role) in [
+                ("real", Role::Aside),
+                ("imaginary", Role::Aside),
+                ("largest", Role::Up),
+            ] {
+                columns.push(column(format!("{} {part}", output.name), unit, role));
+            }
+            panels.push(Panel {
+                up: format!("largest displacement of {}, {unit}", output.name),
+                is_complex: false,
+                curves: vec![(String::new(), columns.len() - 1)],
+            });
+        }
+        Self {
+            columns,
+            rows: points.iter().map(row).collect(),
+            modes,
+            panels,
+        }
+    }
+
+    fn of_backbone(output: &Channel, modes: Vec<AssemblyMode>, points: &[FreePoint]) -> Self {
+        let row =
+            |point: &FreePoint| vec![point.amplitude, point.frequency_hz, point.damping_ratio];
+        let name = format!("amplitude of {}", output.name);
+        let panel = |up: &str, place: usize| Panel {
+            up: up.to_owned(),
+            is_complex: false,
+            curves: vec![(String::new(), place)],
+        };
+        Self {
+            columns: vec![
+                column(name, displacement_unit(output), Role::Across),
+                column("frequency", "Hz", Role::Up),
+                column("damping ratio", "", Role::Up),
+            ],
+            rows: points.iter().map(row).collect(),
+            modes,
+            panels: vec![panel("frequency, Hz", 1), panel("damping ratio", 2)],
         }
     }
 
@@ -198,6 +270,13 @@ fn receptance_unit(output: &Channel, input: &Channel) -> &'static str {
         (DofKind::Translation, DofKind::Rotation) => "m/(N·m)",
         (DofKind::Rotation, DofKind::Translation) => "rad/N",
         (DofKind::Rotation, DofKind::Rotation) => "rad/(N·m)",
+    }
+}
+
+fn displacement_unit(output: &Channel) -> &'static str {
+    match output.kind() {
+        DofKind::Translation => "m",
+        DofKind::Rotation => "rad",
     }
 }
 

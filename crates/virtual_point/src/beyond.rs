@@ -4,7 +4,6 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::suspects::Spread;
 use crate::{Place, Role, Tolerance, VirtualPoint, VirtualPointError};
 
 /// Noise is at least this part of the functions: below it nobody measures.

@@ -17,7 +17,6 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         ("--as", arguments.interface.is_some()),
         ("--step-size-max", arguments.step_size_max.is_some()),
         ("--preload", arguments.preload.is_some()),
-        ("--extrapolate", arguments.extrapolate),
     ] {
         if given {
             let expected =
@@ -33,6 +32,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         platforms: arguments.platforms.clone().or_else(platforms),
         allow_active: arguments.allow_active,
         allow_unusable: arguments.unusable,
+        extrapolate: arguments.extrapolate,
         date: Timestamp::from_environment()?,
     };
     let exported =
@@ -44,13 +44,13 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     warn(&model.warnings);
     note(&model.notes);
     for joint in &model.joints {
-        for reason in joint.file.reasons_against() {
+        for reason in joint.whole().reasons_against() {
             message(&format!(
                 "warning: joint {} is not to be relied on: {reason}",
                 joint.name
             ));
         }
-        for matrix in joint.file.passivity().active() {
+        for matrix in joint.whole().passivity().active() {
             message(&format!(
                 "warning: joint {}: {matrix}: this FMU can feed energy into a simulation",
                 joint.name

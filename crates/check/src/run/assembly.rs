@@ -41,7 +41,15 @@ impl AssemblyPlan {
             let own = all.filter(|own| own.causality == causality);
             own.map(|own| own.reference).collect()
         };
-        let (inputs, outputs) = (of("input"), of("output"));
+        // preloads stay at their start, which is within their tables
+        let preloads: Vec<u32> = described
+            .variables
+            .iter()
+            .filter(|own| own.name.ends_with(".preload"))
+            .map(|own| own.reference)
+            .collect();
+        let (mut inputs, outputs) = (of("input"), of("output"));
+        inputs.retain(|reference| !preloads.contains(reference));
         let load = |place: usize| LOAD * (1.0 + 0.3 * place as f64);
         let mut actions = vec![Action::Start {
             values: (0..inputs.len()).map(load).collect(),

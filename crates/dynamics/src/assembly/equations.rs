@@ -8,7 +8,8 @@ use super::{
 };
 use crate::{
     dof::SPACE_COUNT,
-    law::{DofLaws, DofMemory},
+    law::{DofLaws, DofMemory, JointLaw},
+    motion::Motion,
     number::Number,
 };
 
@@ -19,14 +20,17 @@ pub struct AssemblyMotion<'a, N> {
     pub coordinates: &'a [N],
     /// q̇.
     pub rates: &'a [N],
+    /// The laws of the joints over the preload at present, in their order; without them they are as they stand in the assembly.
+    pub laws: &'a [JointLaw<SPACE_COUNT, N>],
 }
 
 /// A joint at a motion, with what its laws remember on the DOFs that have any.
 struct At<'a, N, M> {
     joint: &'a AssemblyJoint,
+    /// Its law, if it follows a preload.
+    law: Option<&'a JointLaw<SPACE_COUNT, N>>,
     /// Relative motion of its DOFs, and the rate.
-    r: [N; SPACE_COUNT],
-    v: [N; SPACE_COUNT],
+    relative: Motion<SPACE_COUNT, N>,
     memory: &'a [DofMemory<M>],
 }
 
@@ -37,18 +41,14 @@ impl Assembly {
         self.frequencies_rad_per_s.len()
     }
 
-    /// Calls `of` for every DOF that has laws, with the laws, the relative motion and its rate.
+    /// Calls `of` for every DOF of [`Assembly::laws`], with the laws, the relative motion and its rate.
     pub fn each_law<N: Number>(
         &self,
         motion: AssemblyMotion<'_, N>,
-        mut of: impl FnMut(&DofLaws, N, N),
+        mut of: impl FnMut(&DofLaws<N>, N, N),
     ) {
         self.each(motion, &[], |at: At<'_, N, N>| {
-            for (dof, laws) in at.joint.laws.iter().enumerate() {
-                if !laws.are_none() {
-                    of(laws, at.r[dof], at.v[dof]);
-                }
-            }
+            at.each_law(|_, laws, r, v| of(laws, r, v));
         });
     }
 
@@ -102,8 +102,14 @@ impl Assembly {
             energy = energy + half * (rate * rate + N::from(frequency.powi(2)) * q * q);
         }
         self.each(motion, memory, |at| {
-            energy = energy + half * form(&at.joint.stiffness, &at.r);
-            at.each_law(|laws, memory, r, _| energy = energy + laws.stored_energy(memory, r));
+            energy = energy
+                + match at.law {
+                    Some(law) => law.linear.stored_energy(&at.relative.displacement),
+                    None => half * form(&at.joint.stiffness, &at.relative.displacement),
+                };
+            at.each_memory(|_, laws, memory, r, _| {
+                energy = energy + laws.stored_energy(memory, r);
+            });
         });
         energy
     }
@@ -124,7 +130,9 @@ impl Assembly {
     ) -> N {
         let mut power = self.linear_power(motion);
         self.each(motion, memory, |at| {
-            at.each_law(|laws, memory, r, v| power = power + laws.dissipated_power(memory, r, v));
+            at.each_memory(|_, laws, memory, r, v| {
+                power = power + laws.dissipated_power(memory, r, v);
+            });
         });
         power
     }
@@ -134,7 +142,7 @@ impl Assembly {
     pub fn viscous_power<N: Number>(&self, motion: AssemblyMotion<'_, N>) -> N {
         let mut power = self.linear_power(motion);
         self.each_law(motion, |laws, r, v| {
-            power = power + of_numbers::<N>(laws).viscous_power(r, v);
+            power = power + laws.viscous_power(r, v);
         });
         power
     }
@@ -142,33 +150,49 @@ impl Assembly {
     fn linear_power<N: Number>(&self, motion: AssemblyMotion<'_, N>) -> N {
         let mut power = form(&self.damping_per_s, motion.rates);
         self.each(motion, &[], |at: At<'_, N, N>| {
-            power = power + form(&at.joint.damping, &at.v);
+            power = power
+                + match at.law {
+                    Some(law) => law.linear.dissipated_power(&at.relative.velocity),
+                    None => form(&at.joint.damping, &at.relative.velocity),
+                };
         });
         power
     }
 
     /// Calls `of` for every joint.
-    fn each<'a, N: Number, M>(
+    fn each<'a, N: Number + 'a, M>(
         &'a self,
-        motion: AssemblyMotion<'_, N>,
+        motion: AssemblyMotion<'a, N>,
         memory: &'a [DofMemory<M>],
         mut of: impl FnMut(At<'a, N, M>),
     ) {
         let mut rest = memory;
+        let mut laws = motion.laws.iter();
         for joint in &self.joints {
             let mut at = At {
                 joint,
-                r: [N::ZERO; SPACE_COUNT],
-                v: [N::ZERO; SPACE_COUNT],
+                law: joint.over_preload.as_ref().and_then(|_| laws.next()),
+                relative: Motion::REST,
                 memory: rest,
             };
             for (dof, row) in rows(&joint.relative).take(SPACE_COUNT).enumerate() {
-                at.r[dof] = sum(row, motion.coordinates);
-                at.v[dof] = sum(row, motion.rates);
+                at.relative.displacement[dof] = sum(row, motion.coordinates);
+                at.relative.velocity[dof] = sum(row, motion.rates);
             }
-            let with_laws = joint.laws.iter().filter(|laws| !laws.are_none()).count();
-            rest = rest.get(with_laws..).unwrap_or_default();
+            rest = rest.get(joint.with_laws().count()..).unwrap_or_default();
             of(at);
+        }
+    }
+}
+
+impl<N: Number, M> At<'_, N, M> {
+    fn each_law(&self, mut of: impl FnMut(usize, &DofLaws<N>, N, N)) {
+        for (dof, laws) in self.joint.with_laws() {
+            let (r, v) = (self.relative.displacement[dof], self.relative.velocity[dof]);
+            match self.law {
+                Some(law) => of(dof, &law.on[dof], r, v),
+                None => of(dof, &of_numbers(laws), r, v),
+            }
         }
     }
 }
@@ -176,29 +200,31 @@ impl Assembly {
 impl<N: Number, M: Number + Into<N>> At<'_, N, M> {
     /// K r + C ṙ + f
     fn loads(&self, loads: &mut [N]) {
+        let linear = self.law.map(|law| law.linear.load(&self.relative));
         for (dof, load) in loads.iter_mut().enumerate() {
-            *load = sum(self.joint.stiffness.row(dof), &self.r)
-                + sum(self.joint.damping.row(dof), &self.v);
+            *load = match &linear {
+                Some(linear) => linear[dof],
+                None => {
+                    sum(self.joint.stiffness.row(dof), &self.relative.displacement)
+                        + sum(self.joint.damping.row(dof), &self.relative.velocity)
+                }
+            };
         }
-        let mut with_laws = self
-            .joint
-            .laws
-            .iter()
-            .enumerate()
-            .filter(|(_, laws)| !laws.are_none());
-        self.each_law(|laws, memory, r, v| {
-            if let Some(load) = with_laws.next().and_then(|(dof, _)| loads.get_mut(dof)) {
+        self.each_memory(|dof, laws, memory, r, v| {
+            if let Some(load) = loads.get_mut(dof) {
                 *load = *load + laws.load(memory, r, v);
             }
         });
     }
 
-    fn each_law(&self, mut of: impl FnMut(DofLaws<N>, &DofMemory<M>, N, N)) {
-        let laws = self.joint.laws.iter().enumerate();
-        let with_laws = laws.filter(|(_, laws)| !laws.are_none());
-        for ((dof, laws), memory) in with_laws.zip(self.memory) {
-            of(of_numbers(laws), memory, self.r[dof], self.v[dof]);
-        }
+    /// The same as [`At::each_law`] with what the laws remember.
+    fn each_memory(&self, mut of: impl FnMut(usize, &DofLaws<N>, &DofMemory<M>, N, N)) {
+        let mut memory = self.memory.iter();
+        self.each_law(|dof, laws, r, v| {
+            if let Some(memory) = memory.next() {
+                of(dof, laws, memory, r, v);
+            }
+        });
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) struct Ladder {
 impl Ladder {
     /// For steps of `length_s` (s); `None` where the exponential is not finite.
     pub(super) fn new(system: &System, length_s: f64) -> Option<Self> {
-        if system.laws.is_empty() {
+        if system.forces() == 0 {
             let rung = Rung {
                 length_s,
                 whole: Propagator::new(system, length_s, 0)?.blocks(),
@@ -73,7 +73,7 @@ impl Ladder {
 
 impl Middle {
     fn of(system: &System, whole: &Blocks, half: &Blocks) -> Self {
-        let (m, d) = (system.loads, system.laws.len());
+        let (m, d) = (system.loads, system.forces());
         let rows = relative_rows(system);
         let size = 2 * system.size;
         let of_loads = |block: &Matrix| rows.product(&block.block([0, 0], size, m));
@@ -92,7 +92,7 @@ impl Middle {
 
 /// (S, 0; 0, S): relative displacements and their rates by q and q̇.
 fn relative_rows(system: &System) -> Matrix {
-    let (n, d) = (system.size, system.laws.len());
+    let (n, d) = (system.size, system.forces());
     let mut rows = Matrix::zeros(2 * d, 2 * n);
     rows.set_block([0, 0], &system.rows);
     rows.set_block([d, n], &system.rows);

@@ -7,6 +7,7 @@ mod equations;
 mod exponential;
 mod ladder;
 mod matrix;
+mod preload;
 mod propagator;
 mod steps;
 mod system;
@@ -15,5 +16,6 @@ mod tests;
 
 pub use equations::AssemblyMotion;
 pub use matrix::Matrix;
+pub use preload::LawOverPreload;
 pub use steps::{AssemblyState, AssemblySteps, TOLERANCE};
 pub use system::{Assembly, AssemblyJoint};

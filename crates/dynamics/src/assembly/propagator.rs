@@ -138,7 +138,7 @@ impl Rows {
     fn of(system: &System) -> Self {
         Self {
             size: system.size,
-            forces: system.loads + system.laws.len(),
+            forces: system.loads + system.forces(),
         }
     }
 

@@ -6,17 +6,25 @@
 
 use super::{
     ladder::{HALVINGS_AT_EVENTS, Ladder, Rung},
-    matrix::dot,
+    matrix::{Matrix, dot},
+    preload::LawsAt,
     propagator::{Blocks, MOMENTS, POWERS},
     system::{Assembly, System},
 };
 use crate::law::{Corner, DOF_AT_REST, DofMemory};
 
 /// Angle h ω_t, with ω_t the highest frequency that the laws' tangents give the joints, up to which the scheme's error is a
-/// millionth over a period of that frequency, …
+/// millionth over a period of that frequency; and h λ_t, with the rate λ_t that those by the velocity give them, …
 const ANGLE_AT_A_MILLIONTH: f64 = 0.13;
 /// … which is of fourth order.
 const MILLIONTH: f64 = 1e-6;
+
+/// Between the ends and the middle of a step the forces are taken as a parabola of time. A motion of the frequency ω, which may be
+/// far above ω_t, makes that err by this times ((h ω_t)² (ωh)² + h λ_t (ωh)³) of itself over 1/ω: Simpson's rule leaves h⁴ f⁗/2880
+/// of a force, which gives a third of it; the rest is margin.
+const OF_PARABOLA: f64 = 1e-3;
+/// (ωh)⁴ is this times the distance between the middle and the cubic through the ends with their slopes (Hermite).
+const HERMITE: f64 = 384.0;
 
 /// Error of the joints' nonlinear part over a period of their own, as a part of the motion, in FMUs and histories.
 pub const TOLERANCE: f64 = 1e-7;
@@ -39,7 +47,7 @@ pub struct AssemblyState {
 pub struct AssemblySteps {
     system: System,
     ladder: Ladder,
-    largest_angle: f64,
+    tolerance: f64,
     scratch: Vec<Scratch>,
     is_too_long: bool,
 }
@@ -48,8 +56,10 @@ pub struct AssemblySteps {
 #[derive(Clone, Debug)]
 struct Scratch {
     state: AssemblyState,
-    /// Loads as powers of time.
+    /// Loads, and then the preloads, as powers of time.
     loads: [Vec<f64>; POWERS],
+    /// The laws at the beginning, in the middle and at the end, where joints follow a preload; else nothing.
+    laws: Vec<LawsAt>,
     /// Relative motions (r, ṙ) at the beginning, at the stages, and at the end.
     relative: [Vec<f64>; 5],
     /// Forces of the four stages.
@@ -58,8 +68,10 @@ struct Scratch {
     powers: [Vec<f64>; POWERS],
     /// ∫ Rq dθ and the integrals over it.
     moments: [Vec<f64>; MOMENTS],
-    /// ∂f/∂r of each law.
-    tangents: Vec<f64>,
+    /// ∂f/∂r and ∂f/∂ṙ of each law.
+    tangents: Vec<[f64; 2]>,
+    /// Corners of a law at the beginning.
+    corners: Vec<f64>,
 }
 
 impl AssemblySteps {
@@ -71,7 +83,7 @@ impl AssemblySteps {
         let ladder = Ladder::new(&system, length_s)?;
         let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
         Some(Self {
-            largest_angle: largest_angle(tolerance),
+            tolerance,
             system,
             ladder,
             scratch,
@@ -83,7 +95,7 @@ impl AssemblySteps {
     #[must_use]
     pub fn with_tolerance(&self, tolerance: f64) -> Self {
         Self {
-            largest_angle: largest_angle(tolerance),
+            tolerance,
             ..self.clone()
         }
     }
@@ -91,7 +103,7 @@ impl AssemblySteps {
     /// An assembly that has not moved yet.
     #[must_use]
     pub fn at_rest(&self) -> AssemblyState {
-        AssemblyState::of_size(self.system.size, self.system.laws.len())
+        AssemblyState::of_size(self.system.size, self.system.forces())
     }
 
     /// Length of the steps, s.
@@ -100,8 +112,8 @@ impl AssemblySteps {
         self.ladder.rungs.first().map_or(0.0, |rung| rung.length_s)
     }
 
-    /// Moves the state on by one step, in which the loads go from `loads` evenly to `loads` + `change` (m numbers each). Where the
-    /// joints ask for it the step is taken in halves, each in halves again, up to 4096 parts; where that
+    /// Moves the state on by one step, in which the loads go from `loads` evenly to `loads` + `change` (m numbers each, and then the
+    /// preload of each joint over the preload, N·m). Where the joints ask for it the step is taken in halves, each in halves again, up to 4096 parts; where that
     /// was not enough, [`Self::was_too_long`] says so. Says how many parts it took.
     pub fn step(&mut self, state: &mut AssemblyState, loads: &[f64], change: &[f64]) -> usize {
         self.step_along(state, |power, load| match power {
@@ -111,7 +123,8 @@ impl AssemblySteps {
         })
     }
 
-    /// The same with loads that are Σ wₖ θᵏ/k! over the step, θ from 0 to 1: `of` gives wₖ for the power (0 to 3) and the load.
+    /// The same with loads and preloads that are Σ wₖ θᵏ/k! over the step, θ from 0 to 1: `of` gives wₖ for the power (0 to 3) and
+    /// the load or, after all loads, the preload.
     pub fn step_along(
         &mut self,
         state: &mut AssemblyState,
@@ -145,14 +158,15 @@ impl AssemblySteps {
         ) else {
             return 0;
         };
+        own.follow(&self.system);
         own.take(&self.system, rung, state);
         let is_finest = finer.is_empty();
-        let is_steep = own.is_steep(&self.system, rung, state, self.largest_angle);
-        self.is_too_long |= is_finest && is_steep && !self.system.laws.is_empty();
+        let is_steep = own.is_steep(&self.system, rung, state, self.tolerance);
+        self.is_too_long |= is_finest && is_steep && self.system.forces() > 0;
         let at_events = match is_finest {
             true => None,
             false if is_steep => Some(at_events),
-            false if own.has_event(&self.system, state) => at_events.checked_sub(1),
+            false if own.has_event(&self.system, rung, state) => at_events.checked_sub(1),
             false => None,
         };
         let Some(at_events) = at_events else {
@@ -169,11 +183,22 @@ impl AssemblySteps {
         first + self.part(state, level + 1, at_events)
     }
 
-    /// Energy stored in structures and joints, J.
+    /// Energy stored in structures and joints, J; of joints over the preload at that at which the linear part is.
     #[must_use]
     pub fn stored_energy_j(&self, state: &AssemblyState) -> f64 {
         self.system.stored_energy(state)
     }
+}
+
+/// Adds A x to `sum`, unless x is zero: loads are held as a rule, and no force is cubic.
+fn add_product(matrix: &Matrix, x: &[f64], sum: &mut [f64]) {
+    if is_there(x) {
+        matrix.add_product_to(x, sum);
+    }
+}
+
+fn is_there(x: &[f64]) -> bool {
+    x.iter().any(|&own| own != 0.0)
 }
 
 /// h ω_t ≤ 0.13 (ε/10⁻⁶)^¼
@@ -220,7 +245,7 @@ impl AssemblyState {
 
 impl System {
     fn stored_energy(&self, state: &AssemblyState) -> f64 {
-        let laws = self.laws.iter().zip(&state.memory).enumerate();
+        let laws = self.laws.on.iter().zip(&state.memory).enumerate();
         let of_laws: f64 = laws
             .map(|(i, (laws, memory))| {
                 let r = dot(self.rows.row(i), &state.motion[..self.size]);
@@ -229,50 +254,67 @@ impl System {
             .sum();
         self.linear_energy(&state.motion) + of_laws
     }
+}
 
-    /// f of every law, at relative motions and from what they remember.
-    fn forces(&self, memory: &[DofMemory], relative: &[f64], forces: &mut [f64]) {
-        let (r, velocity) = relative.split_at(self.laws.len());
-        for (i, force) in forces.iter_mut().enumerate() {
-            *force = self.laws[i].load(&memory[i], r[i], velocity[i]);
-        }
+/// The laws at the beginning, in the middle and at the end: those that follow a preload, or those that never change.
+fn three<'a>(system: &'a System, own: &'a [LawsAt]) -> [&'a LawsAt; 3] {
+    match own {
+        [begin, middle, end] => [begin, middle, end],
+        _ => [&system.laws; 3],
     }
 }
 
 impl Scratch {
     fn of(system: &System) -> Self {
-        let (m, d) = (system.loads, system.laws.len());
+        let (m, d) = (system.loads, system.forces());
+        let following = system.following.len();
         Self {
-            state: AssemblyState::of_size(system.size, system.laws.len()),
-            loads: std::array::from_fn(|_| vec![0.0; m]),
+            state: AssemblyState::of_size(system.size, d),
+            loads: std::array::from_fn(|_| vec![0.0; m + following]),
+            laws: vec![system.laws.clone(); if following > 0 { 3 } else { 0 }],
             relative: std::array::from_fn(|_| vec![0.0; 2 * d]),
             forces: std::array::from_fn(|_| vec![0.0; d]),
             powers: std::array::from_fn(|_| vec![0.0; m + d]),
             moments: std::array::from_fn(|_| vec![0.0; m + d]),
-            tangents: vec![0.0; d],
+            tangents: vec![[0.0; 2]; d],
+            corners: Vec::new(),
+        }
+    }
+
+    /// Lets the laws follow the preloads.
+    fn follow(&mut self, system: &System) {
+        let [w0, w1, w2, w3] = &self.loads;
+        for (laws, theta) in self.laws.iter_mut().zip([0.0, 0.5, 1.0]) {
+            laws.follow(system, |which| {
+                let place = system.loads + which;
+                let after: f64 = w2[place] + theta / 3.0 * w3[place];
+                // Σ wₖ θᵏ/k!
+                w0[place] + theta * (w1[place] + theta / 2.0 * after)
+            });
         }
     }
 
     /// The step from `before` to this scratch's state.
     fn take(&mut self, system: &System, rung: &Rung, before: &AssemblyState) {
-        let (m, d) = (system.loads, system.laws.len());
+        let (m, d) = (system.loads, system.forces());
         let whole = &rung.whole;
         for (power, loads) in self.powers.iter_mut().zip(&self.loads) {
             power.fill(0.0);
-            power[..m].copy_from_slice(loads);
+            power[..m].copy_from_slice(&loads[..m]);
         }
         // y¹ = E y + loads
         let end = &mut self.state.motion;
         end.fill(0.0);
         whole.state.add_product_to(&before.motion, end);
         for (block, power) in whole.by.iter().zip(&self.powers) {
-            block.add_product_to(power, end);
+            add_product(block, power, end);
         }
         if let Some(middle) = &rung.middle {
             let [r0, r2, r3, r4, _] = &mut self.relative;
             let [f1, f2, f3, f4] = &mut self.forces;
+            let [at_begin, at_middle, at_end] = three(system, &self.laws);
             system.relative(&before.motion, r0);
-            system.forces(&before.memory, r0, f1);
+            at_begin.forces(system, &before.memory, r0, f1);
             // y^½ = E_½ y + loads
             r2.fill(0.0);
             middle.by_state.add_product_to(&before.motion, r2);
@@ -280,7 +322,7 @@ impl Scratch {
             for (block, loads) in middle.by_loads.iter().zip(&self.loads) {
                 // in half the time a power of it comes half as far, a quarter …
                 for (i, r2) in r2.iter_mut().enumerate() {
-                    *r2 += share * dot(block.row(i), loads);
+                    *r2 += share * dot(block.row(i), &loads[..m]);
                 }
                 share *= 0.5;
             }
@@ -288,15 +330,15 @@ impl Scratch {
             system.relative(end, r4);
             // f₂ = f(y^½ + i₁ f₁)
             middle.of_half[0].add_product_to(f1, r2);
-            system.forces(&before.memory, r2, f2);
+            at_middle.forces(system, &before.memory, r2, f2);
             // f₃ = f(y^½ + (i₁ − 2i₂) f₁ + 2i₂ f₂)
             middle.of_half[1].add_product_to(f1, r3);
             middle.of_half[2].add_product_to(f2, r3);
-            system.forces(&before.memory, r3, f3);
+            at_middle.forces(system, &before.memory, r3, f3);
             // f₄ = f(y¹ + (j₁ − 2j₂) f₁ + 2j₂ f₃)
             middle.of_whole[0].add_product_to(f1, r4);
             middle.of_whole[1].add_product_to(f3, r4);
-            system.forces(&before.memory, r4, f4);
+            at_end.forces(system, &before.memory, r4, f4);
             // f(θ) = f₁ + (−3f₁ + 4f_m − f₄) θ + (2f₁ − 4f_m + 2f₄) θ², f_m = (f₂ + f₃)/2
             for i in 0..d {
                 let middle = 0.5 * (f2[i] + f3[i]);
@@ -305,7 +347,9 @@ impl Scratch {
                 self.powers[2][m + i] = 2.0 * (2.0 * f1[i] - 4.0 * middle + 2.0 * f4[i]);
             }
             for (block, power) in whole.by.iter().zip(&self.powers) {
-                block.add_product_of_tail_to(&power[m..], end);
+                if is_there(&power[m..]) {
+                    block.add_product_of_tail_to(&power[m..], end);
+                }
             }
             system.relative(end, &mut self.relative[4]);
         }
@@ -315,7 +359,7 @@ impl Scratch {
     /// What the step supplies and turns into heat, and what the joints remember after it.
     fn count(&mut self, system: &System, rung: &Rung, before: &AssemblyState) {
         let h = rung.length_s;
-        let (m, d) = (system.loads, system.laws.len());
+        let (m, d) = (system.loads, system.forces());
         self.moments_over(&rung.whole, &before.motion);
         let [first, second, third] = &self.moments;
         let place = |state: &[f64], p: usize| match p.checked_sub(m) {
@@ -339,19 +383,26 @@ impl Scratch {
             system.linear_energy(&self.state.motion) - system.linear_energy(&before.motion);
         // what of the work is neither stored nor given to the laws is heat of the linear dampers
         let mut heat = supplied - into_laws - stored;
-        let [begin, .., end] = &self.relative;
+        let laws = three(system, &self.laws);
+        // the stages' own middle is no longer needed
+        let [begin, middle, _, _, end] = &mut self.relative;
         for i in 0..d {
-            let (laws, memory) = (&system.laws[i], &mut self.state.memory[i]);
             let [r, velocity] = [[begin[i], end[i]], [begin[d + i], end[d + i]]];
-            let middle = 0.5 * (r[0] + r[1]) + 0.125 * h * (velocity[0] - velocity[1]);
-            let rate = 1.5 * (r[1] - r[0]) / h - 0.25 * (velocity[0] + velocity[1]);
-            // Simpson's rule
-            let ends =
-                laws.viscous_power(r[0], velocity[0]) + laws.viscous_power(r[1], velocity[1]);
-            heat += h / 6.0 * (ends + 4.0 * laws.viscous_power(middle, rate));
+            middle[i] = 0.5 * (r[0] + r[1]) + 0.125 * h * (velocity[0] - velocity[1]);
+            middle[d + i] = 1.5 * (r[1] - r[0]) / h - 0.25 * (velocity[0] + velocity[1]);
+        }
+        // Simpson's rule
+        let motions = [&*begin, middle, end];
+        for ((laws, motion), weight) in laws.into_iter().zip(motions).zip([1.0, 4.0, 1.0]) {
+            let (r, velocity) = motion.split_at(d);
+            heat += weight * h / 6.0 * laws.viscous_power(system, r, velocity);
+        }
+        let [.., at_end] = laws;
+        for (i, memory) in self.state.memory.iter_mut().enumerate() {
+            let laws = &at_end.on[i];
             if laws.have_memory() {
                 laws.copy_memory(&before.memory[i], memory);
-                heat += laws.commit(memory, r[1], velocity[1]);
+                heat += laws.commit(memory, end[i], end[d + i]);
             }
         }
         self.state.supplied_j = before.supplied_j + supplied;
@@ -364,7 +415,7 @@ impl Scratch {
             moment.fill(0.0);
             state.add_product_to(motion, moment);
             for (block, power) in by.iter().zip(&self.powers) {
-                block.add_product_to(power, moment);
+                add_product(block, power, moment);
             }
         }
     }
@@ -375,38 +426,82 @@ impl Scratch {
         system: &System,
         rung: &Rung,
         before: &AssemblyState,
-        largest_angle: f64,
+        tolerance: f64,
     ) -> bool {
-        let d = system.laws.len();
-        let [begin, .., end] = &self.relative;
+        let [begin, hermite, middle, _, end] = &self.relative;
+        let [at_begin, at_middle, at_end] = three(system, &self.laws);
+        if at_begin.are_far_from(at_middle, system) || at_middle.are_far_from(at_end, system) {
+            return true;
+        }
+        let h = rung.length_s;
+        let largest = largest_angle(tolerance);
         let tangents = &mut self.tangents;
-        [begin, end].into_iter().any(|at| {
-            for (i, tangent) in tangents.iter_mut().enumerate() {
-                *tangent = System::tangent(&system.laws[i], &before.memory[i], at[i], at[d + i]);
+        // h ω_t and h λ_t
+        let mut angles = [0.0_f64; 2];
+        for (laws, at) in [(at_begin, begin), (at_end, end)] {
+            let pace = laws.pace(system, &before.memory, at, tangents);
+            angles[0] = angles[0].max(h * pace.frequency_rad_per_s);
+            angles[1] = angles[1].max(h * pace.rate_per_s);
+            if angles[0] > largest || angles[1] > largest {
+                return true;
             }
-            rung.length_s * system.tangent_frequency(tangents) > largest_angle
+        }
+        if angles == [0.0; 2] {
+            return false;
+        }
+        (0..system.forces()).any(|i| {
+            let size = [begin[i], middle[i], end[i]].map(f64::abs);
+            let size = size[0].max(size[1]).max(size[2]);
+            if size == 0.0 {
+                return false;
+            }
+            // (ωh)²
+            let square = (HERMITE * (middle[i] - hermite[i]).abs() / size).sqrt();
+            let error = angles[0].powi(2) * square + angles[1] * square * square.sqrt();
+            OF_PARABOLA * error > tolerance
         })
     }
 
     /// Whether within the step that was taken a law that remembers turns or passes a corner of its load.
-    fn has_event(&self, system: &System, before: &AssemblyState) -> bool {
-        (0..system.laws.len()).any(|i| self.has_event_on(system, before, i))
+    fn has_event(&mut self, system: &System, rung: &Rung, before: &AssemblyState) -> bool {
+        (0..system.forces()).any(|i| self.has_event_on(system, rung.length_s, before, i))
     }
 
-    fn has_event_on(&self, system: &System, before: &AssemblyState, i: usize) -> bool {
-        let laws = &system.laws[i];
-        if !laws.have_memory() {
+    fn has_event_on(
+        &mut self,
+        system: &System,
+        length_s: f64,
+        before: &AssemblyState,
+        i: usize,
+    ) -> bool {
+        let [at_begin, _, at_end] = three(system, &self.laws);
+        if !at_end.on[i].have_memory() {
             return false;
         }
-        let d = system.laws.len();
+        let d = system.forces();
         let [begin, .., end] = &self.relative;
         if begin[d + i] * end[d + i] < 0.0 {
             return true;
         }
+        self.corners.clear();
+        if !self.laws.is_empty() {
+            at_begin.on[i].corners(&before.memory[i], end[i], &mut |corner| {
+                if let Corner::Sharp(place) = corner {
+                    self.corners.push(place);
+                }
+            });
+        }
         let mut passes = false;
-        laws.corners(&before.memory[i], end[i], &mut |corner| {
+        let mut first = self.corners.iter();
+        at_end.on[i].corners(&before.memory[i], end[i], &mut |corner| {
             if let Corner::Sharp(place) = corner {
                 passes |= (place - begin[i]) * (end[i] - place) > 0.0;
+                // with the preload a corner moves: what slides is on it, and sticks where the motion falls behind
+                if let Some(&was) = first.next() {
+                    let rate = (place - was) / length_s;
+                    passes |= (was - begin[i]) * (end[i] - place) > 0.0;
+                    passes |= (begin[d + i] - rate) * (end[d + i] - rate) < 0.0;
+                }
             }
         });
         passes

@@ -4,8 +4,14 @@
 //!
 //! q̈ + C q̇ + Ω² q = B u − Sᵀ (K_j r + C_j ṙ + f(r, ṙ, memory))
 
-use super::matrix::{Matrix, dot};
-use crate::{law::DofLaws, number::Dual};
+use super::{
+    matrix::{Matrix, dot},
+    preload::{Following, LawOverPreload, LawsAt},
+};
+use crate::{
+    dof::SPACE_COUNT,
+    law::{DofLaws, JointLaw, Linear},
+};
 
 /// Structures, and joints between them.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,13 +37,63 @@ pub struct AssemblyJoint {
     pub damping: Matrix,
     /// The laws on each relative DOF beside the linear one, D of them.
     pub laws: Vec<DofLaws>,
+    /// The same over the preload, where the joint follows one; what stands above is then that at one preload.
+    pub over_preload: Option<Box<LawOverPreload>>,
+}
+
+impl AssemblyJoint {
+    /// Its degrees of freedom that have forces beside those of the linear law at one preload, with their laws.
+    pub fn with_laws(&self) -> impl Iterator<Item = (usize, &DofLaws)> {
+        let follows = self.over_preload.is_some();
+        let all = self.laws.iter().enumerate();
+        all.filter(move |(_, laws)| follows || !laws.are_none())
+    }
 }
 
 impl Assembly {
-    /// The laws beside the linear ones, on each DOF that has any, joint by joint.
+    /// The laws beside the linear ones, on each DOF that has any, joint by joint; of a joint over the preload on all of its DOFs.
     pub fn laws(&self) -> impl Iterator<Item = &DofLaws> {
-        let all = self.joints.iter().flat_map(|joint| &joint.laws);
-        all.filter(|laws| !laws.are_none())
+        let all = self.joints.iter().flat_map(AssemblyJoint::with_laws);
+        all.map(|(_, laws)| laws)
+    }
+
+    /// The joints over the preload, in their order.
+    pub fn over_preload(&self) -> impl Iterator<Item = &LawOverPreload> {
+        self.joints
+            .iter()
+            .filter_map(|joint| joint.over_preload.as_deref())
+    }
+
+    /// The same assembly with these preloads (N·m), one for each joint over the preload, as those at which the linear part is.
+    #[must_use]
+    pub fn about(&self, preloads_n_m: &[f64]) -> Self {
+        let mut assembly = self.clone();
+        let mut preloads = preloads_n_m.iter();
+        for joint in &mut assembly.joints {
+            let Some(own) = &joint.over_preload else {
+                continue;
+            };
+            let Some(&preload_n_m) = preloads.next() else {
+                break;
+            };
+            let (law, count) = (own.law(preload_n_m), joint.laws.len());
+            let matrix = |own: &[[f64; SPACE_COUNT]; SPACE_COUNT]| {
+                Matrix::from_fn(count, count, |i, j| own[i][j])
+            };
+            joint.stiffness = matrix(&law.linear.stiffness);
+            joint.damping = matrix(&law.linear.damping);
+            joint.laws.copy_from_slice(&law.on[..count]);
+        }
+        assembly
+    }
+
+    /// The laws of the joints over the preload at these preloads (N·m).
+    #[must_use]
+    pub fn laws_at(&self, preloads_n_m: &[f64]) -> Vec<JointLaw<SPACE_COUNT>> {
+        let pairs = self.over_preload().zip(preloads_n_m);
+        pairs
+            .map(|(own, &preload_n_m)| own.law(preload_n_m))
+            .collect()
     }
 }
 
@@ -57,20 +113,29 @@ pub(super) struct System {
     /// Rows of S for the DOFs that have laws beside the linear one, d × n.
     pub(super) rows: Matrix,
     /// The laws on these DOFs.
-    pub(super) laws: Vec<DofLaws>,
+    pub(super) laws: LawsAt,
+    /// The joints over the preload among them.
+    pub(super) following: Vec<Following>,
     /// S Sᵀ of these DOFs, 1/kg: accelerations by loads.
-    mobility: Matrix,
+    pub(super) mobility: Matrix,
+    /// Ω², and rows and linear stiffness of each joint, which give the energy faster than K_q.
+    squares: Vec<f64>,
+    springs: Vec<[Matrix; 2]>,
 }
 
 impl System {
     pub(super) fn of(assembly: &Assembly) -> Self {
         let size = assembly.frequencies_rad_per_s.len();
         let squares = |i: usize| assembly.frequencies_rad_per_s[i].powi(2);
+        let squares: Vec<f64> = (0..size).map(squares).collect();
         let mut stiffness =
-            Matrix::from_fn(size, size, |i, j| if i == j { squares(i) } else { 0.0 });
+            Matrix::from_fn(size, size, |i, j| if i == j { squares[i] } else { 0.0 });
+        let springs = assembly.joints.iter();
+        let springs = springs.map(|joint| [joint.relative.clone(), joint.stiffness.clone()]);
         let mut damping = assembly.damping_per_s.clone();
         let mut rows: Vec<&[f64]> = Vec::new();
-        let mut laws = Vec::new();
+        let mut laws: Vec<DofLaws> = Vec::new();
+        let mut following = Vec::new();
         for joint in &assembly.joints {
             // SᵀKS
             let around = |matrix: &Matrix| {
@@ -79,11 +144,21 @@ impl System {
             };
             stiffness = stiffness.plus(1.0, &around(&joint.stiffness));
             damping = damping.plus(1.0, &around(&joint.damping));
-            for (dof, own) in joint.laws.iter().enumerate() {
-                if !own.are_none() {
-                    rows.push(joint.relative.row(dof));
-                    laws.push(*own);
-                }
+            if let Some(law) = &joint.over_preload {
+                let count = joint.laws.len();
+                following.push(Following {
+                    law: law.clone(),
+                    linear: Linear {
+                        stiffness: in_space(&joint.stiffness),
+                        damping: in_space(&joint.damping),
+                    },
+                    first: laws.len(),
+                    count,
+                });
+            }
+            for (dof, own) in joint.with_laws() {
+                rows.push(joint.relative.row(dof));
+                laws.push(*own);
             }
         }
         let rows = Matrix::from_fn(rows.len(), size, |i, j| rows[i][j]);
@@ -95,15 +170,23 @@ impl System {
             load_rows: assembly.loads.transposed(),
             mobility: rows.product(&rows.transposed()),
             rows,
-            laws,
+            laws: LawsAt::propagated(laws, following.len()),
+            following,
+            squares,
+            springs: springs.collect(),
         }
+    }
+
+    /// Number of DOFs that have forces of laws, d.
+    pub(super) fn forces(&self) -> usize {
+        self.laws.on.len()
     }
 
     /// Relative displacements of the DOFs with laws, and then their rates, at coordinates and their rates.
     pub(super) fn relative(&self, state: &[f64], relative: &mut [f64]) {
         let (q, rates) = state.split_at(self.size);
-        let (r, velocity) = relative.split_at_mut(self.laws.len());
-        for i in 0..self.laws.len() {
+        let (r, velocity) = relative.split_at_mut(self.forces());
+        for i in 0..self.forces() {
             r[i] = dot(self.rows.row(i), q);
             velocity[i] = dot(self.rows.row(i), rates);
         }
@@ -112,40 +195,32 @@ impl System {
     /// ½ q̇ᵀq̇ + ½ qᵀ K_q q, J.
     pub(super) fn linear_energy(&self, state: &[f64]) -> f64 {
         let (q, rates) = state.split_at(self.size);
-        let strain: f64 = q
-            .iter()
-            .enumerate()
-            .map(|(i, q)| q * dot(self.stiffness.row(i), q_of(state, self.size)))
-            .sum();
-        0.5 * (dot(rates, rates) + strain)
-    }
-
-    /// The highest frequency (rad/s) that these tangent stiffnesses of the laws alone give the DOFs that have them: an upper
-    /// bound of √λmax(S M⁻¹Sᵀ K_t).
-    pub(super) fn tangent_frequency(&self, tangents: &[f64]) -> f64 {
-        let count = self.laws.len();
-        // √K_t (S Sᵀ) √K_t is symmetric and similar to it; its rows' sums bound its eigenvalues
-        let row = |i: usize| -> f64 {
-            (0..count)
-                .map(|j| self.mobility[(i, j)].abs() * (tangents[i] * tangents[j]).abs().sqrt())
-                .sum()
+        let pairs = q.iter().zip(&self.squares);
+        let strain: f64 = pairs.map(|(q, square)| square * q * q).sum();
+        let of_joint = |[rows, stiffness]: &[Matrix; 2]| -> f64 {
+            let mut r = [0.0; SPACE_COUNT];
+            for (i, r) in r.iter_mut().enumerate().take(rows.rows()) {
+                *r = dot(rows.row(i), q);
+            }
+            let r = &r[..rows.rows().min(SPACE_COUNT)];
+            let of_row = |(i, own): (usize, &f64)| own * dot(stiffness.row(i), r);
+            r.iter().enumerate().map(of_row).sum()
         };
-        (0..count).map(row).fold(0.0, f64::max).sqrt()
-    }
-
-    /// ∂f/∂r of one law at a trial motion.
-    pub(super) fn tangent(
-        laws: &DofLaws,
-        memory: &crate::law::DofMemory,
-        r: f64,
-        velocity: f64,
-    ) -> f64 {
-        let laws = DofLaws::new(laws.parameters().map(Dual::<1>::from));
-        let load = laws.load(memory, Dual::along(r, 0), Dual::from(velocity));
-        load.change[0]
+        let joints: f64 = self.springs.iter().map(of_joint).sum();
+        0.5 * (dot(rates, rates) + strain + joints)
     }
 }
 
-fn q_of(state: &[f64], size: usize) -> &[f64] {
-    &state[..size]
+/// A matrix of a joint as that of a joint in space, with zeros for what it has not.
+fn in_space(matrix: &Matrix) -> [[f64; SPACE_COUNT]; SPACE_COUNT] {
+    let has = |i: usize| i < matrix.rows();
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            if has(i) && has(j) {
+                matrix[(i, j)]
+            } else {
+                0.0
+            }
+        })
+    })
 }

@@ -16,6 +16,7 @@ fn check_case(laws: DofLaws, [k, c]: [f64; 2]) -> Assembly {
             stiffness: Matrix::from_fn(1, 1, |_, _| k),
             damping: Matrix::from_fn(1, 1, |_, _| c),
             laws: vec![laws],
+            over_preload: None,
         }],
     }
 }
@@ -227,4 +228,64 @@ fn a_state_that_is_kept_goes_on_as_the_other_does() {
     let _ = followed(&mut steps, first.clone(), 37, [-900.0, 3e4]);
     let (again, ..) = followed(&mut steps, kept, 100, [200.0, 0.0]);
     assert_eq!(first, again);
+}
+
+#[test]
+fn steps_are_halved_for_motions_that_are_faster_than_the_joint_s_own() {
+    // tangents of the law give 45 rad/s, the linear assembly vibrates with 1310: whole periods in few steps
+    let assembly = check_case(Polynomial::cubic(2e8).into(), [4e5, 20.0]);
+    let motion = [
+        -7.826975139777087e-05,
+        5.334932227265154e-05,
+        0.3106163572558443,
+        0.07965130498891876,
+    ];
+    let (state, _, parts) = after(&assembly, 0.02, 20, 0.0, 1e-7);
+    assert_near(&state.motion, &motion, 1e-6);
+    assert!(parts > 20, "{parts}");
+}
+
+#[test]
+fn steps_are_halved_for_dampers_too() {
+    // 3e7 N s/m³ at a millimetre, 30 N s/m, on 0.29 kg: a rate of 100 1/s
+    let assembly = check_case(Polynomial::with(&[], &[3e7]).into(), [4e5, 20.0]);
+    let motion = [
+        0.0004201578286985261,
+        5.083734071619636e-05,
+        0.054510016629651964,
+        -0.3511157756769604,
+    ];
+    let (state, _, parts) = after(&assembly, 2e-3, 2, 0.0, 1e-7);
+    assert_near(&state.motion, &motion, 1e-6);
+    assert!(parts > 2, "{parts}");
+}
+
+/// A table of which the last preload has the joint of [`cubic`].
+fn loosening() -> Assembly {
+    let law = |stiffness: f64, damping: f64, cubic: f64| {
+        let mut law = crate::law::JointLaw::NONE;
+        law.linear.stiffness[0][0] = stiffness;
+        law.linear.damping[0][0] = damping;
+        law.on[0] = Polynomial::cubic(cubic).into();
+        law
+    };
+    let table = [(4.0, law(2e5, 40.0, 0.0)), (8.0, law(4e5, 20.0, 1e12))];
+    let over = LawOverPreload::new(&table, crate::law::Beyond::Refused).unwrap();
+    let mut assembly = check_case(Polynomial::cubic(1e12).into(), [4e5, 20.0]);
+    assembly.joints[0].over_preload = Some(Box::new(over));
+    assembly
+}
+
+#[test]
+fn a_preload_that_stays_is_the_joint_at_it() {
+    let exact = [4.256638020e-4, 1.672845601e-4, 0.4503936292, -0.6683705808];
+    // propagated at another preload as well
+    for about in [8.0, 5.0] {
+        let mut steps = AssemblySteps::new(&loosening().about(&[about]), 1e-4, 1e-7).unwrap();
+        let mut state = started(&steps);
+        for _ in 0..10 {
+            steps.step(&mut state, &[10.0, 8.0], &[0.0, 0.0]);
+        }
+        assert_near(&state.motion, &exact, 1e-6);
+    }
 }

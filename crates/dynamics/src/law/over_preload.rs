@@ -179,6 +179,43 @@ impl<const D: usize> JointOverPreload<D> {
         })
     }
 
+    /// The same of a joint with `W` degrees of freedom, of which the first ones are this joint's and the others have nothing.
+    ///
+    /// # Errors
+    ///
+    /// [`TableDefect`] as in [`Self::new`].
+    pub fn widened<const W: usize>(&self) -> Result<JointOverPreload<W>, TableDefect> {
+        let widened = |law: &JointLaw<D>| {
+            let mut own = JointLaw::<W>::NONE;
+            for i in 0..D.min(W) {
+                own.on[i] = law.on[i];
+                for j in 0..D.min(W) {
+                    own.linear.stiffness[i][j] = law.linear.stiffness[i][j];
+                    own.linear.damping[i][j] = law.linear.damping[i][j];
+                }
+            }
+            own
+        };
+        let knots = self.knots.iter();
+        let table: Vec<_> = knots
+            .map(|knot| (knot.preload_n_m, widened(&knot.law)))
+            .collect();
+        let own = JointOverPreload::new(&table, self.beyond)?;
+        let on_all = |on: &[DofLaws; D]| -> [DofLaws; W] {
+            std::array::from_fn(|i| *on.get(i).unwrap_or(&DofLaws::NONE))
+        };
+        match &self.friction {
+            Some(Friction::Proportional { on, nominal_n_m }) => {
+                Ok(own.with_friction(on_all(on), *nominal_n_m))
+            }
+            Some(Friction::Table(entries)) => {
+                let entries: Vec<_> = entries.iter().map(on_all).collect();
+                own.with_friction_table(&entries)
+            }
+            None => Ok(own),
+        }
+    }
+
     /// Whether the joint remembers its motion.
     #[must_use]
     pub fn has_memory(&self) -> bool {

@@ -31,6 +31,9 @@ fn variable(place: usize, own: &Listed, tree: &Fmi3ModelDescription) -> FmiFloat
             (Some(of_magnitude(name, *exponent)), own.description.clone())
         }
         TypeOf::OfLap(name) => match of_lap(name) {
+            Some(other) if own.role == Role::Limited => {
+                (other.declared_type.clone(), own.description.clone())
+            }
             Some(other) => {
                 let told = other.description.clone().unwrap_or_default();
                 (
@@ -42,7 +45,7 @@ fn variable(place: usize, own: &Listed, tree: &Fmi3ModelDescription) -> FmiFloat
         },
     };
     let (causality, initial) = match own.role {
-        Role::Input => (Causality::Input, None),
+        Role::Input | Role::Limited => (Causality::Input, None),
         Role::State if own.is_output => (Causality::Output, Some(Initial::Exact)),
         Role::State => (Causality::Local, Some(Initial::Exact)),
         Role::Inner | Role::Output => (Causality::Output, Some(Initial::Calculated)),
@@ -58,7 +61,8 @@ fn variable(place: usize, own: &Listed, tree: &Fmi3ModelDescription) -> FmiFloat
         intermediate_update: (own.role != Role::Indicator).then_some(true),
         declared_type,
         derivative: own.derivative_of.map(reference),
-        start: matches!(own.role, Role::Input | Role::State).then(|| AttrList(vec![0.0])),
+        start: matches!(own.role, Role::Input | Role::Limited | Role::State)
+            .then(|| AttrList(vec![own.start])),
         ..FmiFloat64::default()
     }
 }

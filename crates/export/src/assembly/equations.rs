@@ -8,6 +8,7 @@ use bolted_joint_dynamics::{
     law::dof_parameters,
 };
 
+use super::super::start_file::table_lines;
 use super::variables::List;
 
 /// Name of the model in the start-value file.
@@ -29,7 +30,8 @@ pub(super) fn list_lines(
     let mut text = String::new();
     line!(text, "variables {}", list.variables.len());
     for (place, own) in list.variables.iter().enumerate() {
-        line!(text, "{} {} {} 0", own.role.word(), own.name, unit(place));
+        let (word, name, start) = (own.role.word(), &own.name, own.start);
+        line!(text, "{word} {name} {} {start:?}", unit(place));
     }
     line!(text, "apart {}", list.apart);
     let states = list.states();
@@ -41,7 +43,11 @@ pub(super) fn list_lines(
 }
 
 /// Structures and joints.
-pub(super) fn equation_lines(model: &AssemblyModel, assembly: &Assembly) -> String {
+pub(super) fn equation_lines(
+    model: &AssemblyModel,
+    assembly: &Assembly,
+    extrapolate: bool,
+) -> String {
     let mut text = String::new();
     let size = assembly.size();
     line!(text, "coordinates {size}");
@@ -68,6 +74,7 @@ pub(super) fn equation_lines(model: &AssemblyModel, assembly: &Assembly) -> Stri
     line!(text, "joints {}", assembly.joints.len());
     for (joint, own) in assembly.joints.iter().zip(&model.joints) {
         let dofs = own.file.joint.dofs;
+        let follows = joint.over_preload.is_some();
         line!(text, "joint {} {}", own.name, dofs.names().join(" "));
         for matrix in [&joint.relative, &joint.stiffness, &joint.damping] {
             rows(&mut text, matrix);
@@ -78,6 +85,8 @@ pub(super) fn equation_lines(model: &AssemblyModel, assembly: &Assembly) -> Stri
             .zip(dofs.rows())
             .flat_map(|(laws, dof)| {
                 let values = dof_parameters().zip(laws.parameters());
+                // springs and dampers over the preload are in the table
+                let values = values.filter(move |((law, _), _)| !follows || law.remembers());
                 values.map(|((law, parameter), &value)| {
                     (law.variable(parameter.symbol, dof.name), value)
                 })
@@ -87,6 +96,9 @@ pub(super) fn equation_lines(model: &AssemblyModel, assembly: &Assembly) -> Stri
         line!(text, "laws {}", parameters.len());
         for (name, value) in parameters {
             line!(text, "{name} {value:?}");
+        }
+        if let Some(whole) = &own.over_preload {
+            text += &table_lines(&whole.joint, extrapolate);
         }
     }
     text

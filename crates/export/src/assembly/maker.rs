@@ -24,6 +24,7 @@ impl List {
             variables: Vec::new(),
         };
         maker.loads();
+        maker.preloads();
         maker.states();
         let memory = maker.memory();
         maker.inner(&memory);
@@ -76,6 +77,7 @@ impl Maker<'_> {
             derivative_of: None,
             on: Vec::new(),
             initially_on: Vec::new(),
+            start: 0.0,
         });
         &mut self.variables[place]
     }
@@ -97,6 +99,34 @@ impl Maker<'_> {
                 description,
             );
         }
+    }
+
+    fn preloads(&mut self) {
+        let model = self.model;
+        for joint in &model.joints {
+            let Some(table) = joint.table() else { continue };
+            let description = format!(
+                "Tightening torque of the bolt of joint {}; held over a step in Co-Simulation, unless the importer says how it \
+                 goes on",
+                joint.name
+            );
+            let own = self.add(
+                format!("{}.preload", joint.name),
+                Role::Limited,
+                TypeOf::OfLap("preload".to_owned()),
+                description,
+            );
+            own.start = table.nominal;
+        }
+    }
+
+    /// Place of the preload of a joint, if it has one.
+    fn preload_of(&self, joint: usize) -> Option<usize> {
+        let joints = &self.assembly.joints;
+        joints.get(joint)?.over_preload.as_ref()?;
+        let before = joints.iter().take(joint);
+        let before = before.filter(|joint| joint.over_preload.is_some()).count();
+        Some(self.places.loads + before)
     }
 
     fn states(&mut self) {
@@ -219,7 +249,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Places of the states that a joint's loads depend on.
+    /// Places of the states and inputs that a joint's loads depend on.
     fn of_joint(&self, joint: usize) -> Vec<usize> {
         let coordinates = self.coordinates_of(joint);
         let mut on: Vec<usize> = coordinates.iter().map(|&i| self.places.q(i)).collect();
@@ -231,6 +261,8 @@ impl Maker<'_> {
                 .filter(|(_, memory)| memory.joint == joint)
                 .map(|(which, _)| self.places.inner(which)),
         );
+        on.extend(self.preload_of(joint));
+        on.sort_unstable();
         on
     }
 
@@ -294,13 +326,22 @@ impl Maker<'_> {
         let inner = self.memory().iter().filter(|own| own.is_inner).count();
         let inner = || (0..inner).map(move |which| places.inner(which));
         let has_laws = self.assembly.laws().next().is_some();
-        let of_laws = || q().chain(inner()).filter(move |_| has_laws);
+        let preloads = || places.loads..places.inputs();
+        // ascending as the references are
+        let of_laws_and_rates = || {
+            let q = q().filter(move |_| has_laws);
+            q.chain(v()).chain(inner().filter(move |_| has_laws))
+        };
         for (name, declared_type, energy, on, description) in [
             (
                 "energy.stored",
                 "Energy",
                 None,
-                q().chain(v()).chain(inner()).collect::<Vec<_>>(),
+                preloads()
+                    .chain(q())
+                    .chain(v())
+                    .chain(inner())
+                    .collect::<Vec<_>>(),
                 "Energy of motion, and stored in structures and joints",
             ),
             (
@@ -314,7 +355,7 @@ impl Maker<'_> {
                 "power.dissipated",
                 "Power",
                 Some(1),
-                v().chain(of_laws()).collect(),
+                preloads().chain(of_laws_and_rates()).collect(),
                 "Power that structures and joints turn into heat",
             ),
         ] {
@@ -327,6 +368,22 @@ impl Maker<'_> {
             own.derivative_of = energy.map(|which| places.energy(which));
             own.on.clone_from(&on);
             own.initially_on = on;
+        }
+        if places.preloads > 0 {
+            let on = preloads().chain(q()).chain(v());
+            let on = on
+                .chain([places.energy(0), places.energy(1)])
+                .chain(inner());
+            let on: Vec<usize> = on.collect();
+            let own = self.add(
+                "energy.preload".to_owned(),
+                Role::Output,
+                TypeOf::Named("Energy"),
+                "Energy that the joints' springs have taken up since the start because preloads changed: negative where they \
+                 loosened"
+                    .to_owned(),
+            );
+            own.on = on;
         }
     }
 

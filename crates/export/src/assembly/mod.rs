@@ -11,6 +11,7 @@ mod variables;
 use std::path::PathBuf;
 
 use bolted_joint_assembly::AssemblyModel;
+use bolted_joint_dynamics::Beyond;
 use bolted_joint_joint::Passivity;
 
 use super::archive::File;
@@ -35,6 +36,8 @@ pub struct AssemblyOptions {
     pub allow_active: bool,
     /// Whether joints that are not to be relied on, as their files say, are exported all the same.
     pub allow_unusable: bool,
+    /// Whether joints over the preload hold the ends of their tables beyond them, instead of refusing such preloads.
+    pub extrapolate: bool,
     /// Date in the FMU.
     pub date: Timestamp,
 }
@@ -73,7 +76,14 @@ pub fn assembly_fmu(
 ) -> Result<ExportedAssembly, ExportError> {
     names::check(model)?;
     judge(model, options)?;
-    let assembly = model.equations().map_err(Box::new)?;
+    let beyond = match options.extrapolate {
+        true => Beyond::Held,
+        false => Beyond::Refused,
+    };
+    let assembly = model.equations_over_preload(beyond).map_err(Box::new)?;
+    if options.extrapolate && assembly.over_preload().next().is_none() {
+        return Err(ExportError::NothingToExtrapolate);
+    }
     let list = List::of(model, &assembly);
     let remembers = assembly.laws().any(|laws| laws.have_memory());
     let mut description = Description::listing(
@@ -98,8 +108,8 @@ pub fn assembly_fmu(
     };
     let unit = |place: usize| of(place).map_or_else(String::new, |own| own.unit.clone());
     let nominal = |place: usize| of(place).map_or(1.0, |own| own.nominal);
-    let resources =
-        equations::list_lines(&list, unit, nominal) + &equations::equation_lines(model, &assembly);
+    let resources = equations::list_lines(&list, unit, nominal)
+        + &equations::equation_lines(model, &assembly, options.extrapolate);
     let library_name = description.model_identifier();
     let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;
@@ -115,11 +125,11 @@ pub fn assembly_fmu(
         File::text("resources/assembly.toml", source_toml),
     ];
     for joint in &model.joints {
-        let text = joint
-            .file
+        let file = joint.whole();
+        let text = file
             .to_json()
             .map_err(|_| bolted_joint_joint::LawError::Invalid {
-                problems: joint.file.validate(),
+                problems: file.validate(),
             })?;
         files.push(File::text(
             &format!("resources/{}.joint.json", joint.name),
@@ -189,14 +199,15 @@ fn points(model: &AssemblyModel) -> Vec<Point> {
 /// Refuses joints that are active or not to be relied on, unless the user insists.
 fn judge(model: &AssemblyModel, options: &AssemblyOptions) -> Result<(), ExportError> {
     for joint in &model.joints {
-        let reasons = joint.file.reasons_against();
+        let file = joint.whole();
+        let reasons = file.reasons_against();
         if !(reasons.is_empty() || options.allow_unusable) {
             let of_joint = |reason: &String| format!("joint {}: {reason}", joint.name);
             return Err(ExportError::NotUsable {
                 reasons: reasons.iter().map(of_joint).collect(),
             });
         }
-        let passivity: Passivity = joint.file.passivity();
+        let passivity: Passivity = file.passivity();
         if !(passivity.is_passive() || options.allow_active) {
             return Err(ExportError::Active {
                 matrices: passivity.active().cloned().collect(),

@@ -28,6 +28,9 @@ pub(super) fn check(model: &AssemblyModel) -> Result<(), ExportError> {
         for dof in joint.file.joint.dofs.rows() {
             add(format!("{}.{}", joint.name, dof.load), &owner)?;
         }
+        if joint.table().is_some() {
+            add(format!("{}.preload", joint.name), &owner)?;
+        }
     }
     for input in &model.inputs {
         let owner = format!("inputs.{}", input.name);

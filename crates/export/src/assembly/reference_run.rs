@@ -1,6 +1,6 @@
 //! The reference run of an assembly: steps of its loads, then free vibration.
 
-use bolted_joint_assembly::AssemblyModel;
+use bolted_joint_assembly::{AssemblyModel, PlacedJoint};
 use bolted_joint_dynamics::{
     DofMemory,
     assembly::{Assembly, AssemblyMotion, AssemblyState, AssemblySteps, TOLERANCE},
@@ -22,6 +22,8 @@ const FINE: f64 = 1e-3 * TOLERANCE;
 const MARGIN: f64 = 10.0;
 /// … and by what rounding does.
 const ROUNDING: f64 = 1e-9;
+/// Part of its table that a preload goes through to either side.
+const PART_OF_TABLE: f64 = 0.3;
 /// Load (N, N·m) of an assembly without joints, or whose joints no load moves.
 const USUAL_LOAD: f64 = 10.0;
 
@@ -35,10 +37,10 @@ pub(super) fn run(
     let Some(steps) = AssemblySteps::new(assembly, step_s, TOLERANCE) else {
         return Ok(None);
     };
-    let loads = assembly.loads.columns();
+    let nominal = |joint: &PlacedJoint| joint.table().map(|table| table.nominal);
     let course = Course {
         assembly,
-        loads,
+        nominal_n_m: model.joints.iter().filter_map(nominal).collect(),
         amplitude: 1.0,
     };
     let unit = course.history(steps.clone());
@@ -82,7 +84,7 @@ pub(super) fn run(
         })
         .fold(0.0, f64::max);
     let name = |place: &usize| list.variables[*place].name.clone();
-    let inputs: Vec<String> = (0..loads).map(|place| name(&place)).collect();
+    let inputs: Vec<String> = (0..course.inputs()).map(|place| name(&place)).collect();
     let levels = (0..=STEPS / STEPS_A_LEVEL).flat_map(|level| {
         let edge_s = (level * STEPS_A_LEVEL) as f64 * step_s;
         // constant from one level's beginning to the next
@@ -105,24 +107,36 @@ pub(super) fn run(
     )))
 }
 
-/// The loads of the run.
+/// Loads and preloads of the run.
 struct Course<'a> {
     assembly: &'a Assembly,
-    loads: usize,
+    /// Of the joints over the preload.
+    nominal_n_m: Vec<f64>,
     /// N and N·m.
     amplitude: f64,
 }
 
 impl Course<'_> {
+    fn inputs(&self) -> usize {
+        self.assembly.loads.columns() + self.nominal_n_m.len()
+    }
+
     fn level(&self, level: usize) -> Vec<f64> {
-        let load = |place: usize| match level < LOADED_LEVELS {
-            true => {
-                let (share, _) = stimulus::shape(place, place % 4 > 1, (level + 1) as f64);
-                stimulus::rounded(self.amplitude * share)
-            }
+        let share = |place: usize| match level < LOADED_LEVELS {
+            true => stimulus::shape(place, place % 4 > 1, (level + 1) as f64).0,
             false => 0.0,
         };
-        (0..self.loads).map(load).collect()
+        let loads = self.assembly.loads.columns();
+        let mut all: Vec<f64> = (0..loads)
+            .map(|place| stimulus::rounded(self.amplitude * share(place)))
+            .collect();
+        let preloads = self.assembly.over_preload().zip(&self.nominal_n_m);
+        for (place, (law, nominal_n_m)) in (loads..).zip(preloads) {
+            let [first, last] = law.range_n_m();
+            let way = PART_OF_TABLE * (last - first) * share(place);
+            all.push(stimulus::rounded(nominal_n_m + way).clamp(first, last));
+        }
+        all
     }
 
     fn at(&self, step: usize) -> Vec<f64> {
@@ -132,7 +146,7 @@ impl Course<'_> {
     /// States at the communication points.
     fn history(&self, mut steps: AssemblySteps) -> Vec<AssemblyState> {
         let mut state = AssemblyState::at_rest(self.assembly);
-        let held = vec![0.0; self.loads];
+        let held = vec![0.0; self.inputs()];
         let mut all = vec![state.clone()];
         for step in 0..STEPS {
             steps.step(&mut state, &self.at(step), &held);
@@ -186,10 +200,16 @@ impl<'a> Values<'a> {
         }
     }
 
-    fn at(&self, state: &AssemblyState, loads: &[f64]) -> Vec<f64> {
+    fn at(&self, state: &AssemblyState, inputs: &[f64]) -> Vec<f64> {
         let (assembly, memory): (_, &[DofMemory]) = (self.assembly, &state.memory);
         let (coordinates, rates) = state.motion.split_at(assembly.size());
-        let motion = AssemblyMotion { coordinates, rates };
+        let (loads, preloads) = inputs.split_at(assembly.loads.columns());
+        let laws = assembly.laws_at(preloads);
+        let motion = AssemblyMotion {
+            coordinates,
+            rates,
+            laws: &laws,
+        };
         let rows = self.model.output_rows();
         let product = |row: usize, numbers: &[f64]| -> f64 {
             numbers
@@ -213,18 +233,23 @@ impl<'a> Values<'a> {
                     .unwrap_or_default()
             })
         };
-        let mut all = loads.to_vec();
+        let mut all = inputs.to_vec();
         all.extend(coordinates.iter().chain(rates));
         all.extend([state.supplied_j, state.dissipated_j]);
         all.extend(of_kind(true));
         all.extend(motions);
         all.extend(joint_loads);
         all.extend(of_kind(false));
+        let stored = assembly.stored_energy(motion, memory);
         all.extend([
-            assembly.stored_energy(motion, memory),
+            stored,
             assembly.supplied_power(rates, loads),
             assembly.dissipated_power(motion, memory),
         ]);
+        if !preloads.is_empty() {
+            // what is left of the balance, from rest on
+            all.push(stored - state.supplied_j + state.dissipated_j);
+        }
         // derivatives and indicators are no outputs
         let is_none = |own: &&Listed| matches!(own.role, Role::Derivative | Role::Indicator);
         let rest = self.list.variables.iter().filter(is_none).count();

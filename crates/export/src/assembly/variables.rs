@@ -13,6 +13,8 @@ use bolted_joint_frf::Direction;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Input,
+    /// An input that cannot have every value.
+    Limited,
     /// A state that is known at the start.
     State,
     /// A state that follows from the others at the start.
@@ -27,6 +29,7 @@ impl Role {
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Input => "input",
+            Self::Limited => "limited",
             Self::State => "state",
             Self::Inner => "inner",
             Self::Output => "output",
@@ -62,6 +65,8 @@ pub(super) struct Listed {
     /// Places of what it depends on: of inputs and states; and where the simulation starts.
     pub(super) on: Vec<usize>,
     pub(super) initially_on: Vec<usize>,
+    /// Its start value, of an input or a state.
+    pub(super) start: f64,
 }
 
 /// The list, and the place of the first variable that is calculated apart from other outputs.
@@ -89,6 +94,8 @@ impl List {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
     pub(super) loads: usize,
+    /// Preloads, which stand behind the loads.
+    pub(super) preloads: usize,
     pub(super) size: usize,
 }
 
@@ -96,24 +103,29 @@ impl Places {
     pub(super) fn of(assembly: &Assembly) -> Self {
         Self {
             loads: assembly.loads.columns(),
+            preloads: assembly.over_preload().count(),
             size: assembly.size(),
         }
     }
 
+    pub(super) fn inputs(self) -> usize {
+        self.loads + self.preloads
+    }
+
     pub(super) fn q(self, coordinate: usize) -> usize {
-        self.loads + coordinate
+        self.inputs() + coordinate
     }
 
     pub(super) fn v(self, coordinate: usize) -> usize {
-        self.loads + self.size + coordinate
+        self.inputs() + self.size + coordinate
     }
 
     pub(super) fn energy(self, which: usize) -> usize {
-        self.loads + 2 * self.size + which
+        self.inputs() + 2 * self.size + which
     }
 
     pub(super) fn inner(self, which: usize) -> usize {
-        self.loads + 2 * self.size + 2 + which
+        self.inputs() + 2 * self.size + 2 + which
     }
 }
 

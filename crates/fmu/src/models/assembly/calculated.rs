@@ -1,7 +1,7 @@
 //! What is calculated of an assembly, for any kind of number.
 
 use bolted_joint_dynamics::{
-    DOF_AT_REST, DofLaws, DofMemory, Number,
+    DOF_AT_REST, DofMemory, JointLaw, Number, SPACE_COUNT,
     assembly::{AssemblyMotion, Matrix},
     law::INNER_PLACES,
 };
@@ -20,18 +20,16 @@ pub(super) enum From {
 
 /// Writes what is calculated of an assembly among what the start-value file lists.
 #[derive(Clone, Copy)]
-pub(super) struct Calculated<'a> {
+pub(super) struct Calculated<'a, N = f64> {
     pub(super) file: &'a AssemblyFile,
     pub(super) layout: &'a AssemblyLayout,
+    /// The laws of the joints over the preload at present.
+    pub(super) laws: &'a [JointLaw<SPACE_COUNT, N>],
 }
 
-impl Calculated<'_> {
+impl<N: Number> Calculated<'_, N> {
     /// Motions, loads in the joints, and what these remember.
-    pub(super) fn write<N: Number, M: Number + Into<N>>(
-        &self,
-        listed: &mut [N],
-        memory: &[DofMemory<M>],
-    ) {
+    pub(super) fn write<M: Number + Into<N>>(&self, listed: &mut [N], memory: &[DofMemory<M>]) {
         let layout = self.layout;
         let (states, calculated) = listed.split_at_mut(layout.motions.start);
         let motion = self.motion(states);
@@ -48,10 +46,11 @@ impl Calculated<'_> {
     }
 
     /// Energies, powers and accelerations, which follow from these.
-    pub(super) fn write_apart<N: Number, M: Number + Into<N>>(
+    pub(super) fn write_apart<M: Number + Into<N>>(
         &self,
         listed: &mut [N],
         memory: &[DofMemory<M>],
+        first_energy: N,
     ) {
         let layout = self.layout;
         let (before, apart) = listed.split_at_mut(layout.stored);
@@ -65,6 +64,12 @@ impl Calculated<'_> {
         *energy = assembly.stored_energy(motion, memory);
         *supplied = assembly.supplied_power(motion.rates, loads);
         *dissipated = assembly.dissipated_power(motion, memory);
+        let (preload, rest) = rest.split_at_mut(layout.preload_energy.len());
+        if let [preload] = preload {
+            // E − E₀ − supplied + dissipated
+            let [supplied, dissipated] = [0, 1].map(|which| before[layout.energies.start + which]);
+            *preload = *energy - first_energy - supplied + dissipated;
+        }
         let (accelerations, rest) = rest.split_at_mut(layout.accelerations.len());
         assembly.accelerations(motion, loads, joint_loads, accelerations);
         let (inner_rates, _) = rest.split_at_mut(layout.inner_rates.len());
@@ -72,7 +77,6 @@ impl Calculated<'_> {
         let mut dof = 0;
         assembly.each_law(motion, |laws, _, rate| {
             if laws.have_inner() {
-                let laws = DofLaws::<N>::new(laws.parameters().map(N::from));
                 let rates = laws.inner_rates(&memory[dof].map(Into::into), rate);
                 while let Some((own, shown)) = shown.next_if(|(_, shown)| shown.dof == dof) {
                     let place = INNER_PLACES.iter().position(|&place| place == shown.place);
@@ -84,7 +88,7 @@ impl Calculated<'_> {
     }
 
     /// Writes the inner states where they follow from the start values.
-    pub(super) fn write_inner<N: Number>(&self, listed: &mut [N], memory: &[DofMemory<N>]) {
+    pub(super) fn write_inner(&self, listed: &mut [N], memory: &[DofMemory<N>]) {
         let inner = &mut listed[self.layout.inner.clone()];
         for (own, shown) in inner.iter_mut().zip(&self.layout.inner_states) {
             *own = memory[shown.dof][shown.place];
@@ -93,7 +97,7 @@ impl Calculated<'_> {
 
     /// What laws remember where the importer integrates their inner states, or where they begin with the simulation; from
     /// `committed`.
-    pub(super) fn memory<N: Number>(
+    pub(super) fn memory(
         &self,
         listed: &[N],
         committed: &[DofMemory],
@@ -117,7 +121,6 @@ impl Calculated<'_> {
             .assembly
             .each_law(self.motion(listed), |laws, r, rate| {
                 let Some(own) = all.next() else { return };
-                let laws = DofLaws::<N>::new(laws.parameters().map(N::from));
                 match from {
                     From::Variables => laws.settle(own, r, rate),
                     From::Start => {
@@ -131,10 +134,11 @@ impl Calculated<'_> {
         memory
     }
 
-    pub(super) fn motion<'n, N>(&self, states: &'n [N]) -> AssemblyMotion<'n, N> {
+    pub(super) fn motion<'n>(&'n self, states: &'n [N]) -> AssemblyMotion<'n, N> {
         AssemblyMotion {
             coordinates: &states[self.layout.coordinates.clone()],
             rates: &states[self.layout.rates.clone()],
+            laws: self.laws,
         }
     }
 }

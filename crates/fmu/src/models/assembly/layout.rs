@@ -22,6 +22,8 @@ pub(super) struct Shown {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct AssemblyLayout {
     pub(super) loads: Range<usize>,
+    /// Preloads of the joints over the preload.
+    pub(crate) preloads: Range<usize>,
     pub(super) coordinates: Range<usize>,
     pub(super) rates: Range<usize>,
     /// Work of the loads, and heat.
@@ -37,6 +39,8 @@ pub(crate) struct AssemblyLayout {
     pub(super) stored: usize,
     /// Powers of loads and of heat.
     pub(super) powers: Range<usize>,
+    /// Energy that springs have taken up because the preload changed; of an assembly with joints over the preload.
+    pub(super) preload_energy: Range<usize>,
     pub(super) accelerations: Range<usize>,
     /// Rates of the inner states.
     pub(super) inner_rates: Range<usize>,
@@ -53,10 +57,8 @@ pub(crate) struct AssemblyLayout {
 impl AssemblyLayout {
     pub(crate) fn of(file: &AssemblyFile) -> Self {
         let assembly = &file.assembly;
-        let laws = || {
-            let all = assembly.joints.iter().flat_map(|joint| &joint.laws);
-            all.filter(|laws| !laws.are_none()).enumerate()
-        };
+        let laws = || assembly.laws().enumerate();
+        let preloads = assembly.over_preload().count();
         let shown: Vec<Shown> = laws()
             .flat_map(|(dof, laws)| shown_of(laws).map(move |place| Shown { dof, place }))
             .collect();
@@ -78,6 +80,7 @@ impl AssemblyLayout {
         );
         Self {
             loads: next(assembly.loads.columns()),
+            preloads: next(preloads),
             coordinates: next(size),
             rates: next(size),
             energies: next(2),
@@ -87,6 +90,7 @@ impl AssemblyLayout {
             memory: next(remembered.len()),
             stored: next(1).start,
             powers: next(2),
+            preload_energy: next(usize::from(preloads > 0)),
             accelerations: next(size),
             inner_rates: next(inner_states.len()),
             turning: next(that_turn.len()),
@@ -101,6 +105,7 @@ impl AssemblyLayout {
     pub(crate) fn agrees(&self, roles: &[Role], apart: usize) -> bool {
         let parts = [
             (&self.loads, Role::Input),
+            (&self.preloads, Role::LimitedInput),
             (&self.coordinates, Role::State),
             (&self.rates, Role::State),
             (&self.energies, Role::State),
@@ -108,7 +113,7 @@ impl AssemblyLayout {
             (&self.motions, Role::Output),
             (&self.joint_loads, Role::Output),
             (&self.memory, Role::Output),
-            (&(self.stored..self.powers.end), Role::Output),
+            (&(self.stored..self.preload_energy.end), Role::Output),
             (&self.accelerations, Role::Derivative),
             (&self.inner_rates, Role::Derivative),
             (&self.turning, Role::Indicator),

@@ -3,6 +3,9 @@
 //! Importers that subtract times give lengths that differ in their last digits. So lengths are prepared with nine digits, and what
 //! is left over is a first-order step of its own: its error is the square of at most 5·10⁻⁹ of a step. A length that has no more
 //! digits leaves nothing over.
+//!
+//! What is propagated exactly has the stiffness and damping of one preload of each joint over the preload. A step takes that at
+//! which the joint has stayed for some steps; while the preload moves, the nearest one of the table, of which there are few.
 
 use bolted_joint_dynamics::assembly::{Assembly, AssemblySteps, TOLERANCE};
 
@@ -14,16 +17,25 @@ const KEPT: usize = 4;
 /// Lengths that are prepared, the latest one last.
 #[derive(Debug, Default)]
 pub(super) struct Lengths {
-    prepared: Vec<AssemblySteps>,
+    prepared: Vec<Prepared>,
     /// The latest length, and that with nine digits, s.
     latest_s: [f64; 2],
 }
 
+/// One length.
+#[derive(Debug)]
+struct Prepared {
+    steps: AssemblySteps,
+    /// The preloads about which it is, N·m.
+    about_n_m: Vec<f64>,
+}
+
 impl Lengths {
-    /// What this step needs; its length may be another by the last digits.
+    /// What this step needs with the linear part at these preloads (N·m); its length may be another by the last digits.
     pub(super) fn of(
         &mut self,
         assembly: &Assembly,
+        about_n_m: Vec<f64>,
         step: Step,
     ) -> Result<&mut AssemblySteps, Refusal> {
         let [latest_s, mut rounded_s] = self.latest_s;
@@ -32,25 +44,31 @@ impl Lengths {
             self.latest_s = [step.interval_s, rounded_s];
         }
         let mut known = self.prepared.iter();
-        match known.position(|own| own.length_s() == rounded_s) {
+        let is_it =
+            |own: &Prepared| own.steps.length_s() == rounded_s && own.about_n_m == about_n_m;
+        match known.position(is_it) {
             Some(place) if place + 1 == self.prepared.len() => {}
             Some(place) => {
                 let own = self.prepared.remove(place);
                 self.prepared.push(own);
             }
             None => {
-                let own = AssemblySteps::new(assembly, rounded_s, TOLERANCE);
-                let own = own.ok_or(Refusal::GrowsWithinStep {
+                let steps = match about_n_m.is_empty() {
+                    true => AssemblySteps::new(assembly, rounded_s, TOLERANCE),
+                    false => AssemblySteps::new(&assembly.about(&about_n_m), rounded_s, TOLERANCE),
+                };
+                let steps = steps.ok_or(Refusal::GrowsWithinStep {
                     interval_s: step.interval_s,
                     time_s: step.time_s,
                 })?;
                 if self.prepared.len() == KEPT {
                     self.prepared.remove(0);
                 }
-                self.prepared.push(own);
+                self.prepared.push(Prepared { steps, about_n_m });
             }
         }
-        self.prepared.last_mut().ok_or(Refusal::Internal)
+        let latest = self.prepared.last_mut().ok_or(Refusal::Internal)?;
+        Ok(&mut latest.steps)
     }
 }
 

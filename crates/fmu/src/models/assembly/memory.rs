@@ -4,10 +4,13 @@ use bolted_joint_dynamics::{DofLaws, DofMemory, Dual};
 
 use super::calculated::{Calculated, From};
 use crate::{
-    interface::{Name, Values},
+    interface::{Name, Values, memory},
     models::events,
     refusal::Refusal,
 };
+
+/// Steps after which a preload that has not moved is taken to stay.
+const STEPS_TO_STAY: f64 = 16.0;
 
 /// Lets the joints remember the straight way to where the simulation starts; the heat of that way was before.
 pub(super) fn begin(calculated: Calculated<'_>, values: &mut Values) {
@@ -17,9 +20,75 @@ pub(super) fn begin(calculated: Calculated<'_>, values: &mut Values) {
     let memory = calculated.memory(values.listed(), values.memories(), From::Start);
     calculated.write_inner(values.listed_mut(), &memory);
     values.memories_mut().copy_from_slice(&memory);
+    stay(calculated, values, &Stayed::Beginning);
+    if !calculated.layout.preload_energy.is_empty() {
+        let listed = values.listed();
+        let assembly = &calculated.file.assembly;
+        let stored = assembly.stored_energy(calculated.motion(listed), values.memories());
+        let [supplied, dissipated] =
+            [0, 1].map(|which| listed[calculated.layout.energies.start + which]);
+        values[memory::FIRST_ENERGY] = stored - supplied + dissipated;
+    }
     each_that_turns(calculated, values, |ahead, law, [r, rate]| {
         events::begin_on(ahead, law, r, rate);
     });
+}
+
+/// What a step did to the preloads.
+pub(super) enum Stayed {
+    /// There was none yet.
+    Beginning,
+    /// It ended with these, N·m.
+    Ended(Vec<f64>),
+}
+
+/// Remembers for how many steps the preloads have stayed what they are.
+pub(super) fn stay(calculated: Calculated<'_>, values: &mut Values, stayed: &Stayed) {
+    let first = calculated.file.assembly.laws().count();
+    let preloads = calculated.layout.preloads.clone();
+    for (which, place) in preloads.enumerate() {
+        let begun_n_m = values.listed()[place];
+        let (preload_n_m, has_stayed) = match stayed {
+            Stayed::Beginning => (begun_n_m, false),
+            Stayed::Ended(all) => {
+                let ended_n_m = all.get(which).copied().unwrap_or(begun_n_m);
+                (ended_n_m, ended_n_m == begun_n_m)
+            }
+        };
+        if let Some([own, steps, ..]) = values.memories_mut().get_mut(first + which) {
+            *steps = if has_stayed && *own == begun_n_m {
+                *steps + 1.0
+            } else {
+                0.0
+            };
+            *own = preload_n_m;
+        }
+    }
+}
+
+/// Preloads (N·m) of the joints that follow one, at which the linear part of a step is propagated.
+pub(super) fn about_n_m(calculated: Calculated<'_>, values: &Values, is_held: bool) -> Vec<f64> {
+    let assembly = &calculated.file.assembly;
+    let first = assembly.laws().count();
+    let present = &values.listed()[calculated.layout.preloads.clone()];
+    let all = assembly.over_preload().zip(present).enumerate();
+    all.map(|(which, (law, &preload_n_m))| {
+        let remembered = values.memories().get(first + which);
+        let steps = match remembered {
+            Some([own, steps, ..]) if *own == preload_n_m && is_held => *steps,
+            _ => 0.0,
+        };
+        if steps >= STEPS_TO_STAY {
+            return preload_n_m;
+        }
+        let knots = law.samples_n_m(0);
+        let nearer = |one: f64, other: f64| {
+            let is_nearer = (other - preload_n_m).abs() < (one - preload_n_m).abs();
+            if is_nearer { other } else { one }
+        };
+        knots.reduce(nearer).unwrap_or(preload_n_m)
+    })
+    .collect()
 }
 
 /// Moves what the joints remember on to the present point, where a step is completed.
@@ -80,7 +149,7 @@ pub(super) fn present(calculated: Calculated<'_>, values: &Values) -> Option<Vec
 
 /// The same with its changes along those of `listed`.
 pub(super) fn present_change(
-    calculated: Calculated<'_>,
+    calculated: Calculated<'_, Dual<1>>,
     values: &Values,
     listed: &[Dual<1>],
 ) -> Option<Vec<DofMemory<Dual<1>>>> {

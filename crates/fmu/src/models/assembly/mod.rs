@@ -9,19 +9,23 @@ mod memory;
 pub(crate) use layout::AssemblyLayout;
 
 use bolted_joint_dynamics::{
-    Dual,
+    Dual, JointLaw, SPACE_COUNT,
     assembly::{AssemblyMotion, AssemblyState},
 };
 
 use crate::{
     assembly_file::AssemblyFile,
     input_course::InputCourse,
-    interface::{FIRST_LISTED, InterfaceType, Name, Values, reference::TIME},
-    models::{Model, Outcome, Step},
+    interface::{FIRST_LISTED, InterfaceType, Name, Values, memory::FIRST_ENERGY, reference::TIME},
+    models::{Model, Outcome, Step, loosening::check_preload},
     refusal::{Active, Refusal},
 };
 use calculated::Calculated;
 use lengths::Lengths;
+use memory::Stayed;
+
+/// Parts of a step at whose ends it is looked whether a preload is still within its table.
+const PARTS: u32 = 8;
 
 /// Structures and the joints between them.
 #[derive(Debug)]
@@ -43,11 +47,45 @@ impl AssemblyModel {
         }
     }
 
-    fn calculated(&self) -> Calculated<'_> {
+    /// The laws of the joints over the preload at present.
+    fn laws(&self, values: &Values) -> Vec<JointLaw<SPACE_COUNT>> {
+        let preloads = self.layout.preloads.clone();
+        self.file.assembly.laws_at(&values.listed()[preloads])
+    }
+
+    /// The same with their changes along those of the preloads.
+    fn laws_along(&self, values: &Values, change: &Values) -> Vec<JointLaw<SPACE_COUNT, Dual<1>>> {
+        let preloads = self.layout.preloads.clone();
+        let of = |values: &'_ Values| values.listed()[preloads.clone()].to_vec();
+        let pairs = of(values).into_iter().zip(of(change));
+        let all = self.file.assembly.over_preload().zip(pairs);
+        all.map(|(own, (preload_n_m, change_n_m))| {
+            let change = own.change(preload_n_m).times(change_n_m);
+            own.law(preload_n_m).with_change(&change)
+        })
+        .collect()
+    }
+
+    fn calculated<'a, N>(&'a self, laws: &'a [JointLaw<SPACE_COUNT, N>]) -> Calculated<'a, N> {
         Calculated {
             file: &self.file,
             layout: &self.layout,
+            laws,
         }
+    }
+
+    /// Refuses preloads (N·m) that a step of this length (s) comes to and at which there is no joint, by `look`, which finds
+    /// them after a time (s).
+    fn check_preloads(&self, step: Step, look: impl Fn(usize, f64) -> f64) -> Result<(), Refusal> {
+        let laws = self.file.assembly.over_preload();
+        for (place, law) in self.layout.preloads.clone().zip(laws) {
+            for part in 1..=PARTS {
+                let after_s = step.interval_s * f64::from(part) / f64::from(PARTS);
+                let time_s = step.time_s + after_s;
+                check_preload(law, look(place, after_s), Some(time_s))?;
+            }
+        }
+        Ok(())
     }
 
     /// Takes the state from the variables.
@@ -70,7 +108,7 @@ impl AssemblyModel {
         listed[layout.coordinates.start..layout.rates.end].copy_from_slice(&self.state.motion);
         listed[layout.energies.start] = self.state.supplied_j;
         listed[layout.energies.start + 1] = self.state.dissipated_j;
-        self.calculated().write_inner(listed, &self.state.memory);
+        self.calculated(&[]).write_inner(listed, &self.state.memory);
         let laws = self.file.assembly.laws();
         for ((laws, own), memory) in laws.zip(&self.state.memory).zip(values.memories_mut()) {
             laws.copy_memory(own, memory);
@@ -81,8 +119,13 @@ impl AssemblyModel {
     fn go_on(&mut self, values: &Values, rest_s: f64) {
         let assembly = &self.file.assembly;
         let loads = &values.listed()[self.layout.loads.clone()];
+        let laws = self.laws(values);
         let (coordinates, rates) = self.state.motion.split_at(assembly.size());
-        let motion = AssemblyMotion { coordinates, rates };
+        let motion = AssemblyMotion {
+            coordinates,
+            rates,
+            laws: &laws,
+        };
         let mut joint_loads = vec![0.0; self.layout.joint_loads.len()];
         assembly.joint_loads(motion, &self.state.memory, &mut joint_loads);
         let mut accelerations = vec![0.0; assembly.size()];
@@ -131,6 +174,14 @@ impl Model for AssemblyModel {
         Ok(None)
     }
 
+    fn check_input(&self, input: usize, value: f64) -> Result<(), Refusal> {
+        let place = input.wrapping_sub(FIRST_LISTED + self.layout.preloads.start);
+        match self.file.assembly.over_preload().nth(place) {
+            Some(law) => check_preload(law, value, None),
+            None => Ok(()),
+        }
+    }
+
     fn check_states(&mut self, values: &Values) -> Outcome {
         self.take_state(values);
         self.check_finite(values[TIME])?;
@@ -138,8 +189,23 @@ impl Model for AssemblyModel {
     }
 
     fn advance(&mut self, values: &mut Values, step: Step, inputs: &InputCourse) -> Outcome {
+        let is_held = inputs.is_held();
+        let after = |place: usize, after_s: f64| {
+            inputs.value(FIRST_LISTED + place, values.listed()[place], after_s)
+        };
+        if !is_held {
+            self.check_preloads(step, after)?;
+        }
+        let preloads = self.layout.preloads.clone();
+        let ended_n_m: Vec<f64> = match is_held {
+            true => values.listed()[preloads].to_vec(),
+            false => preloads
+                .map(|place| after(place, step.interval_s))
+                .collect(),
+        };
+        let about_n_m = memory::about_n_m(self.calculated(&[]), values, is_held);
         self.take_state(values);
-        let steps = self.lengths.of(&self.file.assembly, step)?;
+        let steps = self.lengths.of(&self.file.assembly, about_n_m, step)?;
         let h = steps.length_s();
         let (first, listed) = (self.layout.loads.start, values.listed());
         steps.step_along(&mut self.state, |power, load| {
@@ -165,6 +231,7 @@ impl Model for AssemblyModel {
             });
         }
         self.write_state(values);
+        memory::stay(self.calculated(&[]), values, &Stayed::Ended(ended_n_m));
         Ok(None)
     }
 
@@ -175,29 +242,32 @@ impl Model for AssemblyModel {
     fn differentiate_parameters(&self, _: &Values, _: &mut Values) {}
 
     fn begin(&self, values: &mut Values) {
-        memory::begin(self.calculated(), values);
+        memory::begin(self.calculated(&self.laws(values)), values);
     }
 
     fn commit(&self, values: &mut Values, time_s: f64) -> Result<(), Refusal> {
-        memory::commit(self.calculated(), values, time_s)
+        memory::commit(self.calculated(&self.laws(values)), values, time_s)
     }
 
     fn pass_event(&self, values: &mut Values) {
-        memory::look_ahead(self.calculated(), values, true);
+        memory::look_ahead(self.calculated(&self.laws(values)), values, true);
     }
 
     fn calculate_outputs(&self, values: &mut Values) {
-        let calculated = self.calculated();
+        let laws = self.laws(values);
+        let calculated = self.calculated(&laws);
+        let first_energy = values[FIRST_ENERGY];
         let present = memory::present(calculated, values);
         let (listed, committed) = values.listed_beside_memory();
         let memory = present.as_deref().unwrap_or(committed);
         calculated.write(listed, memory);
-        calculated.write_apart(listed, memory);
+        calculated.write_apart(listed, memory, first_energy);
         memory::write_indicators(calculated, values);
     }
 
     fn calculate_loads(&self, values: &mut Values, _: bool) -> bool {
-        let calculated = self.calculated();
+        let laws = self.laws(values);
+        let calculated = self.calculated(&laws);
         let present = memory::present(calculated, values);
         let (listed, committed) = values.listed_beside_memory();
         calculated.write(listed, present.as_deref().unwrap_or(committed));
@@ -207,7 +277,7 @@ impl Model for AssemblyModel {
     fn rates(&self, values: &Values, inputs: &InputCourse, rates: &mut Values) {
         let layout = &self.layout;
         let (from, to) = (values.listed(), rates.listed_mut());
-        for place in layout.loads.clone() {
+        for place in layout.loads.start..layout.preloads.end {
             to[place] = inputs.rate(FIRST_LISTED + place).unwrap_or(0.0);
         }
         to[layout.coordinates.clone()].copy_from_slice(&from[layout.rates.clone()]);
@@ -217,27 +287,33 @@ impl Model for AssemblyModel {
     }
 
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
-        let calculated = self.calculated();
+        let laws = self.laws_along(values, change);
+        let calculated = self.calculated(&laws);
         let pairs = values.listed().iter().zip(change.listed());
         let mut listed: Vec<Dual<1>> = pairs
             .map(|(&value, &change)| Dual::new(value, [change]))
             .collect();
+        let first_energy = Dual::from(values[FIRST_ENERGY]);
         match memory::present_change(calculated, values, &listed) {
             Some(memory) => {
                 if values.are_starting() {
                     calculated.write_inner(&mut listed, &memory);
                 }
                 calculated.write(&mut listed, &memory);
-                calculated.write_apart(&mut listed, &memory);
+                calculated.write_apart(&mut listed, &memory, first_energy);
             }
             None => {
                 calculated.write(&mut listed, values.memories());
-                calculated.write_apart(&mut listed, values.memories());
+                calculated.write_apart(&mut listed, values.memories(), first_energy);
             }
+        }
+        if values.are_starting() {
+            // it is counted from there
+            listed[self.layout.preload_energy.clone()].fill(Dual::from(0.0));
         }
         for (change, own) in change.listed_mut().iter_mut().zip(&listed) {
             *change = own.change[0];
         }
-        memory::write_indicator_changes(calculated, values, change);
+        memory::write_indicator_changes(self.calculated(&self.laws(values)), values, change);
     }
 }

@@ -39,7 +39,7 @@ fn with_friction<const D: usize>(
 }
 
 /// Refuses a preload (N·m) at which there is no joint; `time_s` (s) where the simulation has come to it by itself.
-fn check_preload<const D: usize>(
+pub(in crate::models) fn check_preload<const D: usize>(
     table: &JointOverPreload<D>,
     found_n_m: f64,
     time_s: Option<f64>,

@@ -93,7 +93,7 @@ const ALL_FRICTION: [Friction; 6] = [
 
 /// Element and lap; one and two degrees of freedom; linear, hardening, softening, with terms of higher order, with
 /// friction, and over the preload; and assemblies.
-pub(crate) const MODELS: [Model; 27] = [
+pub(crate) const MODELS: [Model; 28] = [
     Model::new(true, 1, 0.0),
     Model::new(true, 2, 0.0),
     Model::new(true, 1, -2e12),
@@ -123,6 +123,7 @@ pub(crate) const MODELS: [Model; 27] = [
     Model::new(true, 2, 0.0).slipping(&WITH_INNER_STATE),
     Model::assembly(Laws::Cubic),
     Model::assembly(Laws::Friction),
+    Model::assembly(Laws::Preload),
 ];
 
 impl Model {
@@ -222,6 +223,14 @@ impl Model {
                 FIRST + 10,
                 FIRST + 11,
                 FIRST + 12,
+            ],
+            _ if self.assembly == Some(Laws::Preload) => &[
+                FIRST + 8,
+                FIRST + 9,
+                FIRST + 10,
+                FIRST + 12,
+                FIRST + 13,
+                FIRST + 15,
             ],
             _ if self.assembly.is_some() => &[
                 FIRST + 8,

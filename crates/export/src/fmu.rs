@@ -62,6 +62,8 @@ pub struct Exported {
     pub escape_amplitude: Vec<Option<f64>>,
     /// Whether the joint is passive, by matrix.
     pub passivity: Passivity,
+    /// Its parameters with their start values.
+    pub parameters: Vec<(String, f64)>,
     /// Why the joint is not to be relied on; empty where it may be used.
     pub reasons_against: Vec<String>,
     packed: Packed,
@@ -233,8 +235,8 @@ fn fmu(
     let table =
         laws_line(subject.source()) + &table_lines(&subject.source().joint, options.extrapolate);
     let library_name = description.model_identifier();
-    let parameters = parameter_lines(&parameters);
-    let resources = format!("{table}{parameters}");
+    let lines = parameter_lines(&parameters);
+    let resources = format!("{table}{lines}");
     let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;
 
@@ -264,7 +266,7 @@ fn fmu(
         File::text(description::FILE, xml),
         File::text(
             "resources/start.txt",
-            start_file(options.interface, dofs, &token, &table, &parameters),
+            start_file(options.interface, dofs, &token, &table, &lines),
         ),
     ];
     files.extend(sources);
@@ -287,6 +289,7 @@ fn fmu(
         step,
         escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
         passivity,
+        parameters,
         reasons_against: subject.source().reasons_against().to_vec(),
         packed: packed(
             files,

@@ -23,6 +23,7 @@ mod provenance;
 mod reference_run;
 mod start_file;
 mod step;
+mod system;
 mod terminals;
 mod token;
 mod xml;
@@ -44,3 +45,4 @@ pub use start_file::{
     table_lines,
 };
 pub use step::{StepChoice, StepSize};
+pub use system::{Dialect, DrawnJoint, ExportedSystem, SystemOptions, assembly_system};

@@ -22,7 +22,9 @@ use super::start_file::HEADER;
 use super::terminals::{self, Point};
 use super::token::token;
 use super::{ExportError, FmiVersion, Timestamp};
-use variables::{List, letters};
+pub(super) use names::check_word;
+use variables::List;
+pub(super) use variables::letters;
 
 /// How an assembly is exported.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +54,8 @@ pub struct ExportedAssembly {
     pub coordinates: usize,
     /// Suggested communication step, s.
     pub suggested_step_s: f64,
+    /// Suggested end of a simulation, s.
+    pub suggested_stop_s: f64,
     /// Its files and libraries.
     pub packed: Packed,
 }
@@ -153,6 +157,7 @@ pub fn assembly_fmu(
         token,
         coordinates: assembly.size(),
         suggested_step_s: experiment.communication_step_s,
+        suggested_stop_s: experiment.stop_s,
         packed: packed(
             files,
             options.platforms.as_deref(),

@@ -63,7 +63,7 @@ impl PlacedJoint {
     ///
     /// # Errors
     /// [`AssemblyError::Law`] where the joint gives no law.
-    pub(crate) fn of_small_motion_about(
+    pub fn of_small_motion_about(
         &self,
         displacement: f64,
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), AssemblyError> {

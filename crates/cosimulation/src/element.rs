@@ -76,6 +76,14 @@ pub enum CouplingError {
         /// What was expected.
         expected: &'static str,
     },
+    /// A point that a neighbour does not have.
+    #[error("found {found}, expected a point of the structure: {}", there.join(", "))]
+    NoPoint {
+        /// The point.
+        found: String,
+        /// Points that there are.
+        there: Vec<String>,
+    },
     /// Stiffness or damping with which motion grows by itself.
     #[error(
         "the joint's tangent stiffness or its damping is not positive semidefinite at {}, so that motion grows there \
@@ -182,6 +190,16 @@ fn tangents<const D: usize>(
             }
         })
         .collect())
+}
+
+/// K and C of small motion about the places within the amplitude, as [`element_bound`] takes them.
+pub(super) fn tangent_matrices(
+    joint: &Joint,
+    amplitude: Option<&[f64]>,
+) -> Result<Vec<(DMatrix<f64>, DMatrix<f64>)>, CouplingError> {
+    let tangents = with_dofs!(joint.dofs.size(), D => tangents::<D>(joint, amplitude))?;
+    let all = tangents.into_iter();
+    Ok(all.map(|own| (own.stiffness, own.damping)).collect())
 }
 
 /// Small motion about a relative displacement.

@@ -48,6 +48,9 @@ pub(super) struct ExportArguments {
     /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
     #[arg(long, value_name = "DIR")]
     platforms: Option<PathBuf>,
+    /// Name of the FMU's library, and of the class that tools make of it: a C identifier [default: from the name of the model]
+    #[arg(long, value_name = "NAME")]
+    model_identifier: Option<String>,
     /// Parameter sets of an SSP that are drawn from the joints' standard deviations and correlations
     #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=100_000))]
     draws: u32,
@@ -146,6 +149,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let interface = arguments.interface.unwrap_or(InterfaceArgument::Element);
     let options = ExportOptions {
         version: arguments.fmi.map_or_else(Default::default, Into::into),
+        model_identifier: arguments.model_identifier.clone(),
         step_size_max_s: arguments.step_size_max,
         platforms: arguments.platforms.clone().or_else(platforms),
         preload_n_m: arguments.preload,
@@ -178,6 +182,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
     Ok(ExportOptions {
         interface,
         version: fmu::FmiVersion::default(),
+        model_identifier: None,
         step_size_max_s: None,
         platforms: platforms(),
         preload_n_m: None,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use bolted_joint_dynamics::assembly::{Assembly, AssemblyJoint, Matrix};
 use bolted_joint_dynamics::{JointLaw, with_dofs};
-use bolted_joint_joint::JointFile;
+use bolted_joint_joint::{About, JointFile};
 use nalgebra::DMatrix;
 
 use crate::error::AssemblyError;
@@ -41,6 +41,8 @@ pub struct AssemblyModel {
     pub path: PathBuf,
     /// Name of the assembly.
     pub name: String,
+    /// Who stands behind it, and what others may do with it.
+    pub about: Option<About>,
     /// The structures, by name.
     pub structures: Vec<NamedStructure>,
     /// The joints.

@@ -166,6 +166,15 @@ pub enum ExportError {
         /// The other.
         other: String,
     },
+    /// A name that no library can have.
+    #[error(
+        "model identifier: found {found:?}, expected letters, digits and underscores with no digit in front, 128 at most, such as Bolt_M10; \
+         leave --model-identifier out for one that is made of the name"
+    )]
+    NotAnIdentifier {
+        /// The name.
+        found: String,
+    },
     /// A name by which the parts of an assembly cannot be told apart.
     #[error("`{key}`: found {found}, expected {expected}")]
     Part {

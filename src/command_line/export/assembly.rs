@@ -34,6 +34,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let model = AssemblyModel::of(&text)?;
     let options = AssemblyOptions {
         version: arguments.fmi.map_or_else(Default::default, Into::into),
+        model_identifier: arguments.model_identifier.clone(),
         platforms: arguments.platforms.clone().or_else(platforms),
         allow_active: arguments.allow_active,
         allow_unusable: arguments.unusable,

@@ -30,6 +30,11 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         let expected = "--draws with it: the seed is that of the draws";
         return Err(CliError::option("--seed", "no draws", expected));
     }
+    if arguments.model_identifier.is_some() {
+        let expected =
+            "none: an SSP has several FMUs, which are named after their structures and joints";
+        return Err(CliError::option("--model-identifier", "it", expected));
+    }
     let text = StudyText::read(&arguments.joint_file)?;
     check_output(&arguments.output, &[&arguments.joint_file])?;
     let model = AssemblyModel::of(&text)?;
@@ -37,6 +42,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         parts: AssemblyOptions {
             // SSP 1.0 was made for it, and not every tool that reads SSP takes FMI 3.0
             version: arguments.fmi.map_or(FmiVersion::V2, Into::into),
+            model_identifier: None,
             platforms: arguments.platforms.clone().or_else(platforms),
             allow_active: arguments.allow_active,
             allow_unusable: arguments.unusable,

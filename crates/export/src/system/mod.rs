@@ -144,6 +144,7 @@ fn element(joint: &PlacedJoint, options: &AssemblyOptions) -> Result<Exported, E
         &ExportOptions {
             interface: Interface::Element,
             version: options.version,
+            model_identifier: None,
             step_size_max_s: None,
             platforms: options.platforms.clone(),
             preload_n_m: None,

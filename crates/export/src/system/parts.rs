@@ -150,6 +150,7 @@ impl StructurePart {
             model: AssemblyModel {
                 path: model.path.clone(),
                 name: format!("{}: {name}", model.name),
+                about: model.about.clone(),
                 structures: vec![structure],
                 joints: Vec::new(),
                 inputs: inputs.clone(),

@@ -192,21 +192,19 @@ fn tangents<const D: usize>(
         .collect())
 }
 
-/// K and C of small motion about the places within the amplitude, as [`element_bound`] takes them.
-pub(super) fn tangent_matrices(
+/// Small motion about the places within the amplitude, as [`element_bound`] takes them.
+pub(super) fn all_tangents(
     joint: &Joint,
     amplitude: Option<&[f64]>,
-) -> Result<Vec<(DMatrix<f64>, DMatrix<f64>)>, CouplingError> {
-    let tangents = with_dofs!(joint.dofs.size(), D => tangents::<D>(joint, amplitude))?;
-    let all = tangents.into_iter();
-    Ok(all.map(|own| (own.stiffness, own.damping)).collect())
+) -> Result<Vec<Tangent>, CouplingError> {
+    with_dofs!(joint.dofs.size(), D => tangents::<D>(joint, amplitude))
 }
 
 /// Small motion about a relative displacement.
-struct Tangent {
+pub(super) struct Tangent {
     at: Vec<f64>,
-    stiffness: DMatrix<f64>,
-    damping: DMatrix<f64>,
+    pub(super) stiffness: DMatrix<f64>,
+    pub(super) damping: DMatrix<f64>,
 }
 
 /// The relative motion q̈ + C q̇ + K q = 0 in coordinates q = W^−½ r with W = M_a⁻¹ + M_b⁻¹.

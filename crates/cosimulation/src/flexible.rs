@@ -10,7 +10,7 @@ use bolted_joint_frf::Dof;
 use bolted_joint_joint::Joint;
 use nalgebra::{DMatrix, RowDVector, Schur, SymmetricEigen};
 
-use super::element::{check_count, tangent_matrices};
+use super::element::{all_tangents, check_count};
 use super::{CouplingError, StepBound};
 
 /// How the loads of a step follow from the motion.
@@ -134,10 +134,10 @@ impl Flexible {
             }
         }
         let structures = structures.without_common_motion();
-        let tangents = tangent_matrices(joint, amplitude)?.into_iter();
-        let with = tangents.map(|(stiffness, damping)| Self {
-            stiffness,
-            damping,
+        let tangents = all_tangents(joint, amplitude)?.into_iter();
+        let with = tangents.map(|own| Self {
+            stiffness: own.stiffness,
+            damping: own.damping,
             ..structures.clone()
         });
         Ok(with.collect())

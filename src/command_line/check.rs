@@ -9,6 +9,7 @@ use bolted_joint_importer::FmiVersion;
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use bolted_joint::assembly::AssemblyModel;
 use bolted_joint::check::{
     self, AssemblyInspection, RunReport, RunVerdict, Runner, execute_script, inspect,
     inspect_assembly,
@@ -16,18 +17,20 @@ use bolted_joint::check::{
 use bolted_joint::export::Interface;
 use bolted_joint::joint::JointFile;
 use bolted_joint::show::FileKind;
+use bolted_joint::study::StudyText;
 
 use super::communication_step::{NeighbourArguments, communication_step};
 use super::error::CliError;
+use super::flexible_neighbours::of_assembly;
 use super::invocation::{Program, program};
 use super::kind::expect;
-use super::output::print;
+use super::output::{print, warn};
 use super::table::number;
 
 /// `check`
 #[derive(Debug, Args)]
 pub(super) struct CheckArguments {
-    /// Joint file or FMU
+    /// Joint file, assembly file or FMU
     file: PathBuf,
     /// Only look into the FMU: run none of its code. Without this its library is run, in a process of its own
     #[arg(long)]
@@ -69,17 +72,26 @@ struct Report {
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let path = &arguments.file;
-    let kind = expect(path, "a joint file (JSON) or an FMU", |kind| {
-        matches!(
-            kind,
-            FileKind::JointFile | FileKind::OtherJson | FileKind::Fmu | FileKind::OtherZip
-        )
-    })?;
+    let kind = expect(
+        path,
+        "a joint file (JSON), an assembly file (TOML) or an FMU",
+        |kind| {
+            matches!(
+                kind,
+                FileKind::JointFile
+                    | FileKind::OtherJson
+                    | FileKind::Assembly
+                    | FileKind::Fmu
+                    | FileKind::OtherZip
+            )
+        },
+    )?;
     let report = match kind {
         FileKind::Fmu | FileKind::OtherZip => match inspect_assembly(path)? {
             Some(inspection) => assembly(path, &inspection, arguments)?,
             None => fmu(path, arguments)?,
         },
+        FileKind::Assembly => assembly_file(path, arguments)?,
         _ => joint_file(path, arguments)?,
     };
     if arguments.json {
@@ -163,6 +175,64 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         kind: "joint file".to_owned(),
         facts,
         reasons_against: file.reasons_against().to_vec(),
+        findings,
+        messages: Vec::new(),
+        details,
+    })
+}
+
+/// An assembly file: what it has, and how its parts would bear explicit coupling.
+fn assembly_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
+    arguments
+        .neighbours
+        .refuse("an assembly file, which has the neighbours of its joints")?;
+    let text = StudyText::read(path)?;
+    let model = AssemblyModel::of(&text)?;
+    warn(&model.warnings);
+    let names = |all: &mut dyn Iterator<Item = &String>| {
+        all.map(String::as_str).collect::<Vec<_>>().join(", ")
+    };
+    let mut facts = vec![
+        format!("name: {}", model.name),
+        format!(
+            "structures: {}, with {} coordinates",
+            names(&mut model.structures.iter().map(|own| &own.name)),
+            model.size()
+        ),
+        format!(
+            "joints: {}",
+            names(&mut model.joints.iter().map(|own| &own.name))
+        ),
+    ];
+    facts.extend(model.notes.iter().cloned());
+    let (mut findings, mut reasons_against) = (Vec::new(), Vec::new());
+    for joint in &model.joints {
+        let name = &joint.name;
+        let passivity = joint.file.passivity();
+        findings.extend(passivity.active().map(|matrix| {
+            format!("joint {name}: {matrix}; expected it positive semidefinite: this joint can feed energy into a simulation")
+        }));
+        reasons_against.extend(
+            joint
+                .file
+                .reasons_against()
+                .iter()
+                .map(|reason| format!("joint {name}: {reason}")),
+        );
+    }
+    facts.push("as one FMU: exact for the linear part at any communication step".to_owned());
+    let step = of_assembly(&model)?;
+    facts.extend(
+        step.facts
+            .into_iter()
+            .map(|fact| format!("as structures and elements (SSP): {fact}")),
+    );
+    let mut details = Map::new();
+    details.insert("communication_step".to_owned(), step.details);
+    Ok(Report {
+        kind: "assembly file".to_owned(),
+        facts,
+        reasons_against,
         findings,
         messages: Vec::new(),
         details,
@@ -260,6 +330,9 @@ fn assembly(
     inspection: &AssemblyInspection,
     arguments: &CheckArguments,
 ) -> Result<Report, CliError> {
+    arguments
+        .neighbours
+        .refuse("the FMU of an assembly, which has the neighbours of its joints")?;
     let [inputs, outputs, coordinates] = inspection.counts;
     let mut facts = vec![
         format!(

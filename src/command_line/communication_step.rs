@@ -11,6 +11,7 @@ use bolted_joint::export::Interface;
 use bolted_joint::joint::{DofSet, JointFile};
 
 use super::error::CliError;
+use super::flexible_neighbours::{Neighbour, of_neighbours};
 use super::table::number;
 
 /// What is beside the joint
@@ -29,9 +30,31 @@ pub(super) struct NeighbourArguments {
     /// Damping to ground that is attached to bodies a and b of a lap, N·s/m
     #[arg(long, value_name = "A,B", value_parser = number_pair, conflicts_with = "neighbour_mass")]
     neighbour_damping: Option<[f64; 2]>,
+    /// Structure beside an element, from a file of modes or matrices: SIDE=FILE@POINTS, with a point for each degree of freedom
+    /// of the joint, such as a=modes.toml@2:+Y,2:+RZ; once for each side, and a side without one does not move
+    #[arg(long, value_name = "SIDE=FILE@POINTS", conflicts_with_all = ["neighbour_mass", "neighbour_stiffness", "neighbour_damping"])]
+    neighbour: Vec<Neighbour>,
     /// Amplitude of the relative motion, for nonlinear joints: m, and rad where there is rotation [default: rest]
     #[arg(long, value_name = "Y[,THETA]", value_delimiter = ',')]
     amplitude: Option<Vec<f64>>,
+}
+
+impl NeighbourArguments {
+    /// Refuses neighbours of what has none to be given.
+    pub(super) fn refuse(&self, found: &'static str) -> Result<(), CliError> {
+        for (option, given) in [
+            ("--neighbour", !self.neighbour.is_empty()),
+            ("--neighbour-mass", self.neighbour_mass.is_some()),
+            ("--neighbour-stiffness", self.neighbour_stiffness.is_some()),
+            ("--neighbour-damping", self.neighbour_damping.is_some()),
+            ("--amplitude", self.amplitude.is_some()),
+        ] {
+            if given {
+                return Err(CliError::option(option, found, "a joint file or its FMU"));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The neighbours and what they mean for the step, for people and for machines.
@@ -52,13 +75,26 @@ pub(super) fn communication_step(
 ) -> Result<Option<CommunicationStep>, CliError> {
     let restrained =
         arguments.neighbour_stiffness.is_some() || arguments.neighbour_damping.is_some();
+    if !arguments.neighbour.is_empty() {
+        return match interface {
+            Interface::Element => {
+                let amplitude = arguments.amplitude.as_deref();
+                of_neighbours(joints, &arguments.neighbour, amplitude, suggested_s).map(Some)
+            }
+            Interface::Lap => Err(CliError::option(
+                "--neighbour",
+                "a lap, which gives motion and takes loads, as a structure does",
+                "an element; for a lap give --neighbour-stiffness for what is attached by a spring",
+            )),
+        };
+    }
     match (interface, arguments.neighbour_mass, restrained) {
         (_, None, false) => match arguments.amplitude {
             None => Ok(None),
             Some(_) => Err(CliError::option(
                 "--amplitude",
                 "no neighbour",
-                "--neighbour-mass or --neighbour-stiffness with it",
+                "--neighbour, --neighbour-mass or --neighbour-stiffness with it",
             )),
         },
         (Interface::Element, Some(mass), _) => {
@@ -211,7 +247,7 @@ fn refusal(refused: CouplingError) -> CliError {
 }
 
 /// Infinity is no number of JSON.
-fn seconds(bound: StepBound) -> Value {
+pub(super) fn seconds(bound: StepBound) -> Value {
     let seconds = bound.seconds();
     if seconds.is_finite() {
         json!(seconds)
@@ -220,7 +256,7 @@ fn seconds(bound: StepBound) -> Value {
     }
 }
 
-fn told(bound: StepBound) -> String {
+pub(super) fn told(bound: StepBound) -> String {
     match bound {
         StepBound::Below(seconds) => format!("stable below {} s", number(seconds, 4)),
         StepBound::Never => "unstable for every step, as nothing damps it".to_owned(),
@@ -271,7 +307,7 @@ fn about_amplitude(joints: &[JointFile], amplitude: Option<&[f64]>) -> String {
 }
 
 /// What to do where the bound is too short.
-fn advice(bound: StepBound, suggested_s: Option<f64>, otherwise: &str) -> String {
+pub(super) fn advice(bound: StepBound, suggested_s: Option<f64>, otherwise: &str) -> String {
     let bound_s = bound.seconds();
     if !bound_s.is_finite() {
         return "communication step: choose it by the accuracy that you want".to_owned();

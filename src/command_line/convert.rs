@@ -6,17 +6,20 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use bolted_joint::convert::{Options, Target, convert, identifier};
+use bolted_joint::assembly::AssemblyModel;
+use bolted_joint::convert::{Converted, Options, Target, convert, convert_assembly, identifier};
 use bolted_joint::joint::JointFile;
+use bolted_joint::show::FileKind;
+use bolted_joint::study::StudyText;
 
 use super::error::CliError;
-use super::kind::expect_joint_file;
+use super::kind::expect;
 use super::output::{check_output, print, warn, write_file};
 
 /// `convert`
 #[derive(Debug, Args)]
 pub(super) struct ConvertArguments {
-    /// Joint file (JSON)
+    /// Joint file (JSON); for Modelica also an assembly file (TOML)
     joint_file: PathBuf,
     /// The tool
     #[arg(long = "to", value_enum, value_name = "TOOL")]
@@ -76,7 +79,19 @@ impl From<TargetArgument> for Target {
 pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     let target = Target::from(arguments.target);
     check_output(&arguments.output, &[&arguments.joint_file])?;
-    expect_joint_file(&arguments.joint_file)?;
+    let kind = expect(
+        &arguments.joint_file,
+        "a joint file (JSON), or for Modelica an assembly file (TOML)",
+        |kind| {
+            matches!(
+                kind,
+                FileKind::JointFile | FileKind::OtherJson | FileKind::Assembly
+            )
+        },
+    )?;
+    if kind == FileKind::Assembly {
+        return assembly(arguments, target);
+    }
     let file = JointFile::read(&arguments.joint_file)?;
     let file = match (arguments.preload, &file.joint.over_preload) {
         (Some(preload), _) => {
@@ -88,19 +103,70 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         }
         _ => file,
     };
-    let options = Options {
-        identifier: name_of(arguments, &file),
-        nodes: pair("--nodes", &arguments.nodes)?,
-        rotation_nodes: pair("--rotation-nodes", &arguments.rotation_nodes)?,
-        first_number: arguments.first_number,
-        at_rest: arguments.at_rest,
-    };
+    let options = options(arguments, &file.name)?;
     let converted = convert(&file, target, &options).map_err(|source| CliError::Unconvertible {
         path: arguments.joint_file.clone(),
         source,
     })?;
-    write_file(&arguments.output, converted.text.as_bytes())?;
     warn(&notes_of_passivity(&file));
+    write(arguments, target, &options, &converted)?;
+    CliError::unless_usable(&arguments.joint_file, file.reasons_against())
+}
+
+/// A whole assembly.
+fn assembly(arguments: &ConvertArguments, target: Target) -> Result<(), CliError> {
+    if target != Target::Modelica {
+        return Err(CliError::option(
+            "--to",
+            target.name(),
+            "modelica: an assembly is converted for Modelica alone",
+        ));
+    }
+    if arguments.preload.is_some() {
+        return Err(CliError::option(
+            "--preload",
+            "it",
+            "none: an assembly file says the preload of each of its joints",
+        ));
+    }
+    let text = StudyText::read(&arguments.joint_file)?;
+    let model = AssemblyModel::of(&text)?;
+    warn(&model.warnings);
+    let options = options(arguments, &model.name)?;
+    let converted =
+        convert_assembly(&model, &options).map_err(|source| CliError::Unconvertible {
+            path: arguments.joint_file.clone(),
+            source,
+        })?;
+    let joints = model.joints.iter();
+    let notes = joints.flat_map(|joint| notes_of_passivity(&joint.file));
+    warn(&notes.collect::<Vec<_>>());
+    write(arguments, target, &options, &converted)?;
+    let reasons = model
+        .joints
+        .iter()
+        .flat_map(|joint| joint.file.reasons_against());
+    CliError::unless_usable(&arguments.joint_file, &reasons.cloned().collect::<Vec<_>>())
+}
+
+fn options(arguments: &ConvertArguments, name: &str) -> Result<Options, CliError> {
+    Ok(Options {
+        identifier: name_of(arguments, name),
+        nodes: pair("--nodes", &arguments.nodes)?,
+        rotation_nodes: pair("--rotation-nodes", &arguments.rotation_nodes)?,
+        first_number: arguments.first_number,
+        at_rest: arguments.at_rest,
+    })
+}
+
+/// Writes the file, and tells what was written.
+fn write(
+    arguments: &ConvertArguments,
+    target: Target,
+    options: &Options,
+    converted: &Converted,
+) -> Result<(), CliError> {
+    write_file(&arguments.output, converted.text.as_bytes())?;
     if arguments.json {
         let value = json!({
             "output": arguments.output.display().to_string(),
@@ -108,7 +174,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
             "name": options.identifier,
             "notes": converted.notes,
         });
-        print(&serde_json::to_string_pretty(&value)?)?;
+        print(&serde_json::to_string_pretty(&value)?)
     } else {
         let mut text = format!(
             "wrote {} for {}\n",
@@ -118,16 +184,15 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         for note in &converted.notes {
             let _ = writeln!(text, "  {note}");
         }
-        print(&text)?;
+        print(&text)
     }
-    CliError::unless_usable(&arguments.joint_file, file.reasons_against())
 }
 
 /// Function and package are called as their file.
-fn name_of(arguments: &ConvertArguments, file: &JointFile) -> String {
+fn name_of(arguments: &ConvertArguments, name: &str) -> String {
     let stem = arguments.output.file_stem().and_then(|stem| stem.to_str());
     let stem = stem.filter(|stem| *stem != "-");
-    identifier(stem.unwrap_or(&file.name))
+    identifier(stem.unwrap_or(name))
 }
 
 fn notes_of_passivity(file: &JointFile) -> Vec<String> {

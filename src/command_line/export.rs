@@ -1,6 +1,7 @@
 //! `export`: a joint file or an assembly file becomes an FMU.
 
 mod assembly;
+mod system;
 
 use std::path::{Path, PathBuf};
 
@@ -25,15 +26,16 @@ use super::table::number;
 pub(super) struct ExportArguments {
     /// Joint file (JSON), or assembly file (TOML)
     joint_file: PathBuf,
-    /// FMU to write
+    /// FMU to write; of an assembly also an SSP (NAME.ssp): structures and joints as FMUs, connected
     #[arg(short, long, value_name = "NAME.fmu")]
     output: PathBuf,
     /// Interface of the FMU of a joint [default: element]
     #[arg(long = "as", value_enum, value_name = "INTERFACE")]
     interface: Option<InterfaceArgument>,
     /// Version of the FMI standard
-    #[arg(long, value_enum, value_name = "VERSION", default_value = "3")]
-    fmi: FmiVersion,
+    /// [default: 3, of the FMUs in an SSP 2]
+    #[arg(long, value_enum, value_name = "VERSION")]
+    fmi: Option<FmiVersion>,
     /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     step_size_max: Option<f64>,
@@ -46,6 +48,18 @@ pub(super) struct ExportArguments {
     /// Folder with libraries for other platforms: DIR/<platform>/bolted_joint.{so,dll,dylib}
     #[arg(long, value_name = "DIR")]
     platforms: Option<PathBuf>,
+    /// Name of the FMU's library, and of the class that tools make of it: a C identifier [default: from the name of the model]
+    #[arg(long, value_name = "NAME")]
+    model_identifier: Option<String>,
+    /// Parameter sets of an SSP that are drawn from the joints' standard deviations and correlations
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=100_000))]
+    draws: u32,
+    /// Seed of the draws [default: 1]
+    #[arg(long, value_name = "NUMBER")]
+    seed: Option<u64>,
+    /// For whom an SSP is written [default: standard]
+    #[arg(long, value_enum, value_name = "TOOL")]
+    ssp_for: Option<SspReader>,
     /// Export a joint that can feed energy into a simulation
     #[arg(long)]
     allow_active: bool,
@@ -73,6 +87,30 @@ enum FmiVersion {
     /// FMI 2.0
     #[value(name = "2")]
     Two,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SspReader {
+    /// Tools that follow the standard
+    Standard,
+    /// Ecos: without connectors of the system, and with parameter sets that are picked by name
+    Ecos,
+}
+
+impl ExportArguments {
+    /// What only an SSP can have.
+    fn refuse_options_of_systems(&self, expected: &'static str) -> Result<(), CliError> {
+        for (option, given) in [
+            ("--draws", self.draws > 0),
+            ("--seed", self.seed.is_some()),
+            ("--ssp-for", self.ssp_for.is_some()),
+        ] {
+            if given {
+                return Err(CliError::option(option, "it", expected));
+            }
+        }
+        Ok(())
+    }
 }
 
 impl From<FmiVersion> for fmu::FmiVersion {
@@ -107,9 +145,11 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     if kind == FileKind::Assembly {
         return assembly::run(arguments);
     }
+    arguments.refuse_options_of_systems("none: it is for the SSP of an assembly")?;
     let interface = arguments.interface.unwrap_or(InterfaceArgument::Element);
     let options = ExportOptions {
-        version: arguments.fmi.into(),
+        version: arguments.fmi.map_or_else(Default::default, Into::into),
+        model_identifier: arguments.model_identifier.clone(),
         step_size_max_s: arguments.step_size_max,
         platforms: arguments.platforms.clone().or_else(platforms),
         preload_n_m: arguments.preload,
@@ -142,6 +182,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
     Ok(ExportOptions {
         interface,
         version: fmu::FmiVersion::default(),
+        model_identifier: None,
         step_size_max_s: None,
         platforms: platforms(),
         preload_n_m: None,

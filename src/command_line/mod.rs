@@ -11,6 +11,7 @@ mod demo;
 mod draws;
 mod error;
 mod export;
+mod flexible_neighbours;
 mod identified_from;
 mod identify;
 mod init;

@@ -136,7 +136,11 @@ fn without_a_library_for_this_platform_the_rest_is_checked() {
         let entry = archive.by_index_raw(index).unwrap();
         let name = entry.name().unwrap().into_owned();
         let name = match name.strip_prefix("binaries/") {
-            Some(_) => "binaries/riscv32-linux/bolted_joint.so".to_owned(),
+            // the name stays that of the model identifier
+            Some(own) => match own.split_once('/') {
+                Some((_, file)) => format!("binaries/riscv32-linux/{file}"),
+                None => name,
+            },
             None => name,
         };
         other.raw_copy_file_rename(entry, name).unwrap();

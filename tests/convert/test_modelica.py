@@ -1,9 +1,15 @@
 """Modelica packages, compiled and run by rumoca, against the FMU in FMPy."""
 
+import sys
+from pathlib import Path
+
 import joints
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "assembly"))
+import small  # noqa: E402
 
 rumoca = pytest.importorskip("rumoca", reason="rumoca is not installed")
 
@@ -77,12 +83,18 @@ def sliding(law):
     return joints.joint(["y"], [[2e6]], [[30.0]], friction=friction)
 
 
+def law(name, **parameters):
+    return joints.joint(["y"], [[2e6]], [[30.0]], friction=[{"dof": "y", "law": name, **parameters}])
+
+
 CASES = {
     "planar": joints.planar(),
     "in space": joints.coupled(),
     "cubic": cubic(),
     "jenkins": sliding("jenkins"),
     "dahl": sliding("dahl"),
+    "bouc-wen": law("bouc-wen", stiffness=1.5e6, slip_force=6.0, exponent=2.0, beta=0.6, gamma=0.4),
+    "valanis": law("valanis", stiffness=1.5e6, slip_stiffness=2e5, slip_force=6.0, kappa=0.6),
 }
 
 
@@ -118,3 +130,66 @@ def test_bodies_move_as_the_equations_say(convert):
     expected = 1e-5 * np.exp(-decay * time) * (np.cos(damped * time) + decay / damped * np.sin(damped * time))
     found = np.array(result["a.y"]) - np.array(result["b.y"])
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * 1e-5)
+
+
+ASSEMBLIES = {
+    "cubic": {"cubic": [1e12]},
+    "jenkins": {"friction": [{"dof": "y", "law": "jenkins", "stiffness": 2e5, "slip_force": 6.0}]},
+}
+
+
+@pytest.mark.parametrize("joint", ASSEMBLIES.values(), ids=ASSEMBLIES.keys())
+def test_an_assembly_is_that_of_the_fmu(run, tmp_path, joint):
+    """Loads in, motions out, under a held load."""
+    path = small.write(tmp_path, joint)
+    run("convert", path, "--to", "modelica", "-o", tmp_path / "Small.mo")
+    run("export", path, "-o", tmp_path / "small.fmu")
+    inside = (tmp_path / "Small.mo").read_text(encoding="ascii").rstrip()
+    end = "end Small;"
+    assert inside.endswith(end)
+    source = tmp_path / "with-test" / "Small.mo"
+    source.parent.mkdir()
+    test = "  model Test\n    Assembly whole;\n  equation\n    whole.push_F = 10.0;\n  end Test;\n"
+    source.write_text(inside[: -len(end)] + test + end + "\n", encoding="ascii")
+    model = rumoca.Session().load(str(source), model="Small.Test")
+    stop, step = 4e-3, 1e-4
+    result = model.simulate(t=(0, stop), config=rumoca.SimConfig(rtol=1e-11, atol=1e-16, dt=step))
+    time = np.array(result["time"])
+    expected = simulate_fmu(
+        str(tmp_path / "small.fmu"), stop_time=stop, output_interval=step, start_values={"push.F": 10.0},
+        fmi_type="CoSimulation",
+    )
+    places = np.array([np.argmin(abs(time - point)) for point in expected["time"]])
+    np.testing.assert_allclose(time[places], expected["time"], rtol=0, atol=1e-12)
+    for own, other in [("tip_y", "tip.y"), ("tip_v", "tip.v"), ("root_y", "root.y")]:
+        largest = max(abs(expected[other]))
+        np.testing.assert_allclose(np.array(result[f"whole.{own}"])[places], expected[other], rtol=0, atol=1e-6 * largest)
+
+
+def test_other_tools_take_no_assembly(run, tmp_path):
+    path = small.write(tmp_path, {})
+    done = run("convert", path, "--to", "nastran", "-o", tmp_path / "x.bdf", expect=1)
+    assert "an assembly is converted for Modelica alone" in done.stderr
+
+
+def test_lugre_is_its_differential_equation(convert):
+    """The FMU's element takes LuGre's rate at the mean of a step: SciPy is the reference for it."""
+    from scipy.integrate import solve_ivp
+
+    bristles = {"stiffness": 1.5e6, "bristle_damping": 30.0, "damping": 25.0}
+    slip = {"slip_force": 6.0, "static_force": 8.0, "stribeck_velocity": 2e-3}
+    file = law("lugre", **bristles, **slip)
+    time, found = in_modelica(convert(file, "modelica", "Bolted.mo"), file)
+    amplitude, omega, phase = course(0)
+
+    def motion(t):
+        return amplitude * (np.sin(omega * t + phase) - np.sin(phase)), amplitude * omega * np.cos(omega * t + phase)
+
+    def rate(t, z):
+        v = motion(t)[1]
+        return v - 1.5e6 * np.abs(v) * z / (6.0 + 2.0 * np.exp(-((v / 2e-3) ** 2)))
+
+    z = solve_ivp(rate, (0, STOP), [0.0], "Radau", t_eval=time, rtol=1e-10, atol=1e-16).y[0]
+    r, v = motion(time)
+    expected = 2e6 * r + 30.0 * v + 1.5e6 * z + 30.0 * rate(time, z) + 25.0 * v
+    np.testing.assert_allclose(found["y"], expected, rtol=0, atol=1e-6 * max(abs(expected)))

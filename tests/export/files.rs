@@ -121,6 +121,7 @@ fn libraries_of_other_platforms_go_into_the_same_fmu() {
     let file = JointFile::read(&data("pirdayr-ex03.joint.json")).unwrap();
     let options = ExportOptions {
         platforms: Some(folder.path().to_path_buf()),
+        model_identifier: Some("swing".to_owned()),
         ..options(Interface::Lap).unwrap()
     };
     has(&refusal(&file, &options), &["found no platform's folder"]);
@@ -130,7 +131,7 @@ fn libraries_of_other_platforms_go_into_the_same_fmu() {
     has(&refusal(&file, &options), &[absent]);
     fs::write(windows.join("bolted_joint.dll"), b"MZ not a real one").unwrap();
     let fmu = fmu_bytes(&file, "", &options).unwrap();
-    let library = text(&fmu, "binaries/x86_64-windows/bolted_joint.dll").unwrap();
+    let library = text(&fmu, "binaries/x86_64-windows/swing.dll").unwrap();
     assert_eq!(library, "MZ not a real one");
     let libraries = fmu.libraries().iter();
     let platforms: Vec<&str> = libraries.map(|library| &*library.platform).collect();
@@ -155,15 +156,16 @@ fn fmi_2_has_its_own_names_for_platforms() {
     let options = ExportOptions {
         version: FmiVersion::V2,
         platforms: Some(folder.path().to_path_buf()),
+        model_identifier: Some("swing".to_owned()),
         ..options(Interface::Lap).unwrap()
     };
     let fmu = fmu_bytes(&file, "", &options).unwrap();
     for path in [
-        "binaries/win64/bolted_joint.dll",
-        "binaries/linux64/bolted_joint.so",
-        "binaries/darwin64/bolted_joint.dylib",
-        "binaries/aarch64-linux/bolted_joint.so",
-        "binaries/aarch64-darwin/bolted_joint.dylib",
+        "binaries/win64/swing.dll",
+        "binaries/linux64/swing.so",
+        "binaries/darwin64/swing.dylib",
+        "binaries/aarch64-linux/swing.so",
+        "binaries/aarch64-darwin/swing.dylib",
     ] {
         bytes(&fmu, path).expect(path);
     }

@@ -36,6 +36,7 @@ fn options(interface: Interface) -> Result<ExportOptions, ExportError> {
     Ok(ExportOptions {
         interface,
         version: FmiVersion::V3,
+        model_identifier: None,
         step_size_max_s: None,
         platforms: None,
         preload_n_m: None,

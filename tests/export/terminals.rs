@@ -6,19 +6,26 @@ use bolted_joint_testing::{begins, ends};
 use crate::xml::{Element, elements, named};
 use crate::{bytes, export_as, text};
 
-/// The flanges: name, and of each member its name, variable and kind.
-fn flanges(xml: &str) -> Vec<(String, Vec<[String; 3]>)> {
-    let mut flanges: Vec<(String, Vec<[String; 3]>)> = Vec::new();
+/// A terminal of one degree of freedom: side, degree of freedom, kind, and of each member its name, variable and kind.
+type Flange = (String, String, String, Vec<[String; 3]>);
+
+fn flanges(xml: &str) -> Vec<Flange> {
+    let (mut side, mut flanges): (String, Vec<Flange>) = (String::new(), Vec::new());
     for element in elements(xml) {
         match &*element.name {
             "Terminal" => {
                 assert_eq!(element.get("matchingRule"), Some("plug"));
-                flanges.push((element.get("name").unwrap().to_owned(), Vec::new()));
+                let [name, kind] =
+                    ["name", "terminalKind"].map(|own| element.get(own).unwrap().to_owned());
+                match kind.as_str() {
+                    "_bolted_joint.Flange" => side = name,
+                    _ => flanges.push((side.clone(), name, kind, Vec::new())),
+                }
             }
             "TerminalMemberVariable" => {
                 let member = ["memberName", "variableName", "variableKind"]
                     .map(|attribute| element.get(attribute).unwrap().to_owned());
-                flanges.last_mut().unwrap().1.push(member);
+                flanges.last_mut().unwrap().3.push(member);
             }
             _ => {}
         }
@@ -27,13 +34,20 @@ fn flanges(xml: &str) -> Vec<(String, Vec<[String; 3]>)> {
 }
 
 #[test]
-fn each_side_has_a_flange_and_an_element_fits_a_lap() {
-    for (name, members) in [
+fn each_degree_of_freedom_has_a_flange_and_an_element_fits_a_lap() {
+    // names of Modelica's Flange (s, f; phi, tau), Mass (v) and Inertia (w)
+    let translation = ("y", "Translational", [("s", "y"), ("v", "v"), ("f", "F")]);
+    let rotation = (
+        "theta",
+        "Rotational",
+        [("phi", "theta"), ("w", "omega"), ("tau", "M")],
+    );
+    for (name, dofs) in [
         (
             "m10-aluminium.joint.json",
-            ["y", "theta", "v", "omega", "F", "M"].as_slice(),
+            [translation, rotation].as_slice(),
         ),
-        ("pirdayr-ex03.joint.json", &["y", "v", "F"]),
+        ("pirdayr-ex03.joint.json", &[translation]),
     ] {
         for version in [FmiVersion::V2, FmiVersion::V3] {
             let (element, _) = export_as(name, Interface::Element, version).unwrap();
@@ -50,17 +64,26 @@ fn each_side_has_a_flange_and_an_element_fits_a_lap() {
                 let found = variables.find(|e: &&Element| e.get("name") == Some(name));
                 found.unwrap().get("causality").unwrap().to_owned()
             };
+            let expected = ["a", "b"]
+                .iter()
+                .flat_map(|side| dofs.iter().map(move |dof| (side, dof)));
             let flanges = flanges(&xml);
-            assert_eq!(flanges.len(), 2);
-            for ((side, found), expected) in flanges.iter().zip(["a", "b"]) {
-                assert_eq!(side, expected);
-                let names: Vec<&str> = found.iter().map(|[member, _, _]| &**member).collect();
-                assert_eq!(names, members);
-                for [member, variable, kind] in found {
-                    assert_eq!(*variable, format!("{side}.{member}"));
+            assert_eq!(flanges.len(), 2 * dofs.len());
+            for (found, (side, (dof, domain, members))) in flanges.iter().zip(expected) {
+                assert_eq!((&*found.0, &*found.1), (*side, *dof));
+                assert_eq!(
+                    found.2,
+                    format!("Modelica.Mechanics.{domain}.Interfaces.Flange")
+                );
+                assert_eq!(found.3.len(), 3);
+                for ([member, variable, kind], (name, quantity)) in found.3.iter().zip(members) {
+                    assert_eq!(
+                        (&**member, &**variable),
+                        (*name, &*format!("{side}.{quantity}"))
+                    );
                     // Motion is taken from the neighbour, the load on the neighbour is given out.
-                    let expected = match &**member {
-                        "F" | "M" => ("output", "outflow"),
+                    let expected = match *name {
+                        "f" | "tau" => ("output", "outflow"),
                         _ => ("input", "signal"),
                     };
                     assert_eq!((&*causality(variable), &**kind), expected, "{variable}");
@@ -73,8 +96,12 @@ fn each_side_has_a_flange_and_an_element_fits_a_lap() {
         let (fmu, _) = export_as("pirdayr-ex03.joint.json", interface, FmiVersion::V3).unwrap();
         flanges(&text(&fmu, "terminalsAndIcons/terminalsAndIcons.xml").unwrap())
     });
-    for ((_, element), (_, lap)) in element.iter().zip(&lap) {
-        for ([member, _, kind], [other, _, other_kind]) in element.iter().zip(lap) {
+    for (element, lap) in element.iter().zip(&lap) {
+        assert_eq!(
+            (&element.0, &element.1, &element.2),
+            (&lap.0, &lap.1, &lap.2)
+        );
+        for ([member, _, kind], [other, _, other_kind]) in element.3.iter().zip(&lap.3) {
             assert_eq!(member, other);
             let is_load = kind == "outflow";
             let expected = if is_load { "inflow" } else { "signal" };

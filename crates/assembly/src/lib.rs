@@ -6,6 +6,7 @@
 
 mod error;
 mod freedom;
+mod from_file;
 mod harmonic;
 mod linear;
 mod modal_form;

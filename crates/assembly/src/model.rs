@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use bolted_joint_dynamics::assembly::{Assembly, AssemblyJoint, LawOverPreload, Matrix};
 use bolted_joint_dynamics::{Beyond, JointLaw, with_dofs};
-use bolted_joint_joint::{JointFile, LawError, OverPreload};
+use bolted_joint_joint::{About, JointFile, LawError, OverPreload};
 use nalgebra::DMatrix;
 
 use crate::error::AssemblyError;
@@ -43,6 +43,8 @@ pub struct AssemblyModel {
     pub path: PathBuf,
     /// Name of the assembly.
     pub name: String,
+    /// Who stands behind it, and what others may do with it.
+    pub about: Option<About>,
     /// The structures, by name.
     pub structures: Vec<NamedStructure>,
     /// The joints.
@@ -65,7 +67,7 @@ impl PlacedJoint {
     ///
     /// # Errors
     /// [`AssemblyError::Law`] where the joint gives no law.
-    pub(crate) fn of_small_motion_about(
+    pub fn of_small_motion_about(
         &self,
         displacement: f64,
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), AssemblyError> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_joint::JointFile;
+use bolted_joint_joint::{About, JointFile};
 use bolted_joint_study::{StudyError, StudyText, TextKind, schema};
 
 use crate::error::AssemblyError;
@@ -34,6 +34,9 @@ impl AssemblyModel {
     pub fn of(text: &StudyText) -> Result<Self, AssemblyError> {
         let tables: AssemblyTables = text.tables()?;
         text.check_name("name", &tables.name)?;
+        for (key, found) in tables.about.iter().flat_map(About::texts) {
+            text.check_name(&format!("about.{key}"), found)?;
+        }
         let mut warnings = Vec::new();
         let mut structures = Vec::new();
         for (name, table) in tables.structures {
@@ -76,6 +79,7 @@ impl AssemblyModel {
         let mut model = Self {
             path: text.path().to_owned(),
             name: tables.name,
+            about: tables.about,
             response: response.transpose()?,
             structures: reader.structures,
             joints,

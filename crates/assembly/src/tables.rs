@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::Boundary;
+use bolted_joint_joint::About;
 use bolted_joint_study::OneOrMore;
 use serde::Deserialize;
 
@@ -12,6 +13,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(crate) struct AssemblyTables {
     pub(crate) name: String,
+    pub(crate) about: Option<About>,
     #[serde(default)]
     pub(crate) mechanisms: bool,
     pub(crate) structures: BTreeMap<String, StructureTable>,

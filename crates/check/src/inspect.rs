@@ -127,15 +127,19 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
     })
 }
 
-/// Platform folders that hold a library of ours.
+/// Whether a file is a shared library on some platform, by its name.
+pub(super) fn is_library(file: &str) -> bool {
+    let extension = file.rsplit_once('.').map(|(_, extension)| extension);
+    matches!(extension, Some("so" | "dll" | "dylib"))
+}
+
+/// Platform folders that hold a library.
 pub(super) fn platforms(names: &[String]) -> Vec<String> {
     let mut platforms: Vec<String> = names
         .iter()
         .filter_map(|name| {
-            let (platform, _) = name
-                .strip_prefix("binaries/")?
-                .split_once("/bolted_joint.")?;
-            Some(platform.to_owned())
+            let (platform, file) = name.strip_prefix("binaries/")?.split_once('/')?;
+            is_library(file).then(|| platform.to_owned())
         })
         .collect();
     platforms.sort();

@@ -1,9 +1,10 @@
 //! The parts of an FMU that it need not have: terminals, icons, a reference run.
 
-use roxmltree::Document;
+use roxmltree::{Document, Node};
 
 use super::archive::Archive;
 use super::described::{Described, attribute};
+use super::inspect::is_library;
 
 /// Folder of terminals and icons (FMI 3.0, 2.5.1).
 const TERMINALS: &str = "terminalsAndIcons/terminalsAndIcons.xml";
@@ -19,6 +20,22 @@ pub(super) fn look_at(archive: &mut Archive, described: &Described) -> (Vec<Stri
                 findings.extend(wrong);
             }
             Err(refused) => findings.push(format!("{TERMINALS}: {refused}")),
+        }
+    }
+    let identifier = described
+        .co_simulation
+        .iter()
+        .chain(&described.model_exchange)
+        .next();
+    for name in names.iter().filter(|name| name.starts_with("binaries/")) {
+        let file = name.rsplit('/').next().unwrap_or_default();
+        let stem = file.rsplit_once('.').map(|(stem, _)| stem);
+        if let (true, Some(identifier)) = (is_library(file), identifier)
+            && stem != Some(identifier)
+        {
+            findings.push(format!(
+                "{name}: found a library of another name than modelIdentifier \"{identifier}\", expected that one, by which importers look"
+            ));
         }
     }
     for name in &names {
@@ -46,7 +63,10 @@ fn terminals(
     let mut terminals = Vec::new();
     for element in document.root_element().descendants() {
         match element.tag_name().name() {
-            "Terminal" => terminals.push(attribute(element, "name").unwrap_or_default()),
+            // those within a terminal are parts of it
+            "Terminal" if is_outer(element) => {
+                terminals.push(attribute(element, "name").unwrap_or_default());
+            }
             "TerminalMemberVariable" | "TerminalStreamMemberVariable" => {
                 let member = attribute(element, "variableName").unwrap_or_default();
                 if described.variable(&member).is_none() {
@@ -71,4 +91,10 @@ fn terminals(
     }
     let fact = format!("terminals: {}", terminals.join(", "));
     Ok((fact, findings))
+}
+
+/// Whether a terminal is none within another.
+fn is_outer(terminal: Node<'_, '_>) -> bool {
+    let parent = terminal.parent_element();
+    parent.is_none_or(|parent| parent.tag_name().name() != "Terminal")
 }

@@ -1,7 +1,7 @@
 //! Does the model description declare what this program would for the joint that is in the FMU?
 
 use bolted_joint_importer::FmiVersion;
-use bolted_joint_interface::{Interface as Declared, Role};
+use bolted_joint_interface::{Interface as Declared, Role, Variable};
 
 use super::described::{Described, DescribedVariable, FILE};
 use bolted_joint_export::{StartFile, parameter_lines};
@@ -17,16 +17,22 @@ pub(super) fn differences(found: &Described, expected: &Declared) -> Vec<String>
         ("ModelExchange", &found.model_exchange),
     ];
     for (element, identifier) in interfaces {
-        match identifier.as_deref() {
-            Some(identifier) if identifier == expected.model_identifier => {}
-            Some(other) => findings.push(format!(
-                "{FILE}: found modelIdentifier \"{other}\" of <{element}>, expected \"{}\"",
-                expected.model_identifier
-            )),
-            None => findings.push(format!("{FILE}: found no <{element}>, expected one")),
+        if identifier.is_none() {
+            findings.push(format!("{FILE}: found no <{element}>, expected one"));
         }
     }
-    for wanted in &expected.variables {
+    if let (Some(one), Some(other)) = (&found.co_simulation, &found.model_exchange)
+        && one != other
+    {
+        findings.push(format!(
+            "{FILE}: found modelIdentifier \"{one}\" of <CoSimulation> and \"{other}\" of <ModelExchange>, expected one library"
+        ));
+    }
+    let is_declared = |wanted: &&Variable| {
+        // FMI 2.0 lets the independent variable be left out
+        found.version == FmiVersion::Three || wanted.role != Role::Independent
+    };
+    for wanted in expected.variables.iter().filter(is_declared) {
         let causality = causality(wanted.role);
         let same = |other: &DescribedVariable| {
             (other.reference, other.causality.as_str(), &other.unit)

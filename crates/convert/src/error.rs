@@ -22,6 +22,22 @@ pub enum ConvertError {
         /// What it gets.
         instead: &'static str,
     },
+    /// A joint of an assembly.
+    #[error("joint {joint}: {source}")]
+    OfJoint {
+        /// Its name.
+        joint: String,
+        /// Why.
+        source: Box<ConvertError>,
+    },
+    /// A name of an assembly that no variable can have.
+    #[error(
+        "found the name {found:?}, expected letters, digits and _ in names that become variables; give it another name"
+    )]
+    Name {
+        /// The name.
+        found: String,
+    },
     /// The numbers do not make a law.
     #[error("{0}")]
     Law(String),

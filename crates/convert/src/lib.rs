@@ -7,6 +7,7 @@
 
 mod abaqus;
 mod ansys;
+mod assembly;
 mod calculix;
 mod error;
 mod head;
@@ -18,6 +19,7 @@ mod nastran;
 use bolted_joint_joint::JointFile;
 
 pub use ansys::matrix27_pair;
+pub use assembly::convert_assembly;
 pub use error::ConvertError;
 use head::Head;
 use linear::Linear;

@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use bolted_joint_dynamics::Dof;
 use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS, Term};
 use bolted_joint_files::number;
-use bolted_joint_joint::{JointFile, unit};
+use bolted_joint_joint::{Friction, JointFile, unit};
 
 use crate::head::{Head, ascii};
 use crate::linear::{laws, matrices};
 use crate::{ConvertError, Converted, Options, Target};
 
 /// The laws of friction that the package has.
-const LAWS: [&str; 2] = ["jenkins", "dahl"];
+const LAWS: [&str; 5] = ["jenkins", "dahl", "bouc-wen", "lugre", "valanis"];
 /// Digits of a deviation.
 const DIGITS: usize = 2;
 
@@ -21,16 +21,12 @@ pub(crate) fn package(
     options: &Options,
     mut head: Head,
 ) -> Result<Converted, ConvertError> {
-    let is_strange = file
-        .joint
-        .friction
-        .iter()
-        .any(|own| !LAWS.contains(&own.law.name));
+    let is_strange = file.joint.friction.iter().any(|own| !is_equation(own));
     if is_strange && !options.at_rest {
         return Err(ConvertError::NotExpressible {
             found: laws(file),
             tool: Target::Modelica.name(),
-            instead: "more than springs, dampers, their terms of higher order, Jenkins elements and Dahl's law",
+            instead: "more than springs, dampers, their terms of higher order, Jenkins elements, and the laws of Dahl, Bouc and Wen, LuGre and Valanis (with κ below 1)",
         });
     }
     let name = &options.identifier;
@@ -221,65 +217,89 @@ impl Joint {
 
     fn friction(&mut self, file: &JointFile) {
         for (place, own) in file.joint.friction.iter().enumerate() {
-            let (number, dof) = (place + 1, own.dof.name);
-            let name = format!("{}{number}", own.law.name);
-            let [stiffness, slip] = [0, 1]
-                .map(|own_place: usize| own.parameters.get(own_place).copied().unwrap_or(0.0));
-            let load = fmi_unit(own.dof.kind.load_unit());
-            let per = format!("{load}/{}", own.dof.kind.displacement_unit());
-            self.parameter(
-                &format!("{name}_k_{dof}"),
-                &per,
-                stiffness,
-                "stiffness of the slider",
-            );
-            self.parameter(
-                &format!("{name}_h_{dof}"),
-                &load,
-                slip,
-                "load at which it slips",
-            );
-            let (k, h, v) = (
-                format!("{name}_k_{dof}"),
-                format!("{name}_h_{dof}"),
-                format!("v_{dof}"),
-            );
-            if own.law.name == "dahl" {
-                // dF/dt = k (v − |v| F/h)
-                let _ = writeln!(
-                    self.variables,
-                    "    Real {name}_f(unit=\"{load}\", start=0, fixed=true) \"load of Dahl's law\";"
-                );
-                let _ = writeln!(
-                    self.inner,
-                    "    der({name}_f) = {k}*({v} - abs({v})*{name}_f/{h});"
-                );
-            } else {
-                let unit = own.dof.kind.displacement_unit();
-                let _ = writeln!(
-                    self.variables,
-                    "    Real {name}_s(unit=\"{unit}\", start=0, fixed=true) \"place of the slider\";"
-                );
-                let _ = writeln!(
-                    self.variables,
-                    "    Real {name}_f(unit=\"{load}\") \"load of the slider\";"
-                );
-                let _ = writeln!(self.inner, "    {name}_f = {k}*(r_{dof} - {name}_s);");
-                // a slider that slips does so until the motion turns: its load, which rounding moves about h, has no part in that
-                let _ = writeln!(
-                    self.variables,
-                    "    Integer {name}_slips(start=0, fixed=true) \"0 sticks, 1 and -1 slips that way\";"
-                );
-                let _ = write!(
-                    self.inner,
-                    "    {name}_slips = if pre({name}_slips) == 0 then (if {name}_f > {h} and {v} > 0 then 1 \
-                     else if {name}_f < -{h} and {v} < 0 then -1 else 0)\n      \
-                     else if pre({name}_slips) == 1 then (if {v} < 0 then 0 else 1) else (if {v} > 0 then 0 else -1);\n    \
-                     der({name}_s) = if {name}_slips == 0 then 0 else {v};\n"
-                );
+            let dof = own.dof;
+            let name = format!("{}{}", own.law.name.replace('-', "_"), place + 1);
+            let mut names = Vec::new();
+            for (parameter, value) in own.law.parameters.iter().zip(&own.parameters) {
+                let name = format!("{name}_{}_{}", parameter.symbol, dof.name);
+                let unit = fmi_unit(&unit(parameter.unit, dof.kind, dof.kind));
+                self.parameter(&name, &unit, *value, own.law.name);
+                names.push(name);
             }
-            self.loads.push((dof, format!("{name}_f")));
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            let (r, v) = (format!("r_{}", dof.name), format!("v_{}", dof.name));
+            let load = match (own.law.name, names.as_slice()) {
+                ("jenkins", &[k, h]) => self.slider(dof, &name, [k, h, &r, &v]),
+                ("dahl", &[k, h]) => {
+                    // dF/dt = k (v - |v| F/h)
+                    self.inner_load(dof, &name, &format!("{k}*({v} - abs({v})*{name}_f/{h})"));
+                    format!("{name}_f")
+                }
+                ("bouc-wen", &[k, h, n, beta, gamma]) => {
+                    // F = F_y w, dw/dx = 1 - (beta s sgn w + gamma) |w|^n, x = k u/F_y
+                    let rate = format!(
+                        "{k}*({v} - ({beta}*abs({v})*sign({name}_f) + {gamma}*{v})*abs({name}_f/{h})^{n})"
+                    );
+                    self.inner_load(dof, &name, &rate);
+                    format!("{name}_f")
+                }
+                ("lugre", &[s0, s1, s2, fc, fs, vs]) => {
+                    // dz/dt = v - s0 |v| z/g, F = s0 z + s1 dz/dt + s2 v, g = F_c + (F_s - F_c) e^(-(v/v_s)^2)
+                    let displacement = dof.kind.displacement_unit();
+                    let _ = write!(
+                        self.variables,
+                        "    Real {name}_z(unit=\"{displacement}\", start=0, fixed=true) \"deflection of the bristles\";\n    \
+                         Real {name}_zdot(unit=\"{displacement}/s\") \"its rate\";\n"
+                    );
+                    let _ = write!(
+                        self.inner,
+                        "    {name}_zdot = {v} - {s0}*abs({v})*{name}_z/({fc} + ({fs} - {fc})*exp(-({v}/{vs})^2));\n    \
+                         der({name}_z) = {name}_zdot;\n"
+                    );
+                    format!("{s0}*{name}_z + {s1}*{name}_zdot + {s2}*{v}")
+                }
+                ("valanis", &[e0, et, s0, kappa]) => {
+                    // p = F - E_t x: dp/dx = E_0 (1 - s a)/(1 - kappa s a) - E_t, a = p/(s_0 (1 - kappa E_t/E_0))
+                    let a = format!("{name}_f/({s0}*(1 - {kappa}*{et}/{e0}))*sign({v})");
+                    let rate = format!("{v}*({e0}*(1 - {a})/(1 - {kappa}*{a}) - {et})");
+                    self.inner_load(dof, &name, &rate);
+                    format!("{et}*{r} + {name}_f")
+                }
+                _ => continue,
+            };
+            self.loads.push((dof.name, load));
         }
+    }
+
+    /// A load that follows a differential equation.
+    fn inner_load(&mut self, dof: &Dof, name: &str, rate: &str) {
+        let load = fmi_unit(dof.kind.load_unit());
+        let _ = writeln!(
+            self.variables,
+            "    Real {name}_f(unit=\"{load}\", start=0, fixed=true) \"load of the law\";"
+        );
+        let _ = writeln!(self.inner, "    der({name}_f) = {rate};");
+    }
+
+    /// A spring and a slider in series; its load.
+    fn slider(&mut self, dof: &Dof, name: &str, [k, h, r, v]: [&str; 4]) -> String {
+        let (displacement, load) = (dof.kind.displacement_unit(), fmi_unit(dof.kind.load_unit()));
+        // a slider that slips does so until the motion turns: its load, which rounding moves about h, has no part in that
+        let _ = write!(
+            self.variables,
+            "    Real {name}_s(unit=\"{displacement}\", start=0, fixed=true) \"place of the slider\";\n    \
+             Real {name}_f(unit=\"{load}\") \"load of the slider\";\n    \
+             Integer {name}_slips(start=0, fixed=true) \"0 sticks, 1 and -1 slips that way\";\n"
+        );
+        let _ = write!(
+            self.inner,
+            "    {name}_f = {k}*({r} - {name}_s);\n    \
+             {name}_slips = if pre({name}_slips) == 0 then (if {name}_f > {h} and {v} > 0 then 1 \
+             else if {name}_f < -{h} and {v} < 0 then -1 else 0)\n      \
+             else if pre({name}_slips) == 1 then (if {v} < 0 then 0 else 1) else (if {v} > 0 then 0 else -1);\n    \
+             der({name}_s) = if {name}_slips == 0 then 0 else {v};\n"
+        );
+        format!("{name}_f")
     }
 
     fn equations(&self, dofs: &[&Dof]) -> String {
@@ -297,6 +317,15 @@ impl Joint {
             )
         });
         self.inner.clone() + &loads.collect::<String>()
+    }
+}
+
+/// Whether a law is a differential equation, or a slider between events.
+fn is_equation(own: &Friction) -> bool {
+    match (own.law.name, own.parameters.as_slice()) {
+        // with κ = 1 it is a Jenkins element beside a spring, whose rate is no function of its load
+        ("valanis", &[.., kappa]) => kappa < 1.0,
+        (name, _) => LAWS.contains(&name),
     }
 }
 

@@ -76,6 +76,14 @@ pub enum CouplingError {
         /// What was expected.
         expected: &'static str,
     },
+    /// A point that a neighbour does not have.
+    #[error("found {found}, expected a point of the structure: {}", there.join(", "))]
+    NoPoint {
+        /// The point.
+        found: String,
+        /// Points that there are.
+        there: Vec<String>,
+    },
     /// Stiffness or damping with which motion grows by itself.
     #[error(
         "the joint's tangent stiffness or its damping is not positive semidefinite at {}, so that motion grows there \
@@ -184,11 +192,19 @@ fn tangents<const D: usize>(
         .collect())
 }
 
+/// Small motion about the places within the amplitude, as [`element_bound`] takes them.
+pub(super) fn all_tangents(
+    joint: &Joint,
+    amplitude: Option<&[f64]>,
+) -> Result<Vec<Tangent>, CouplingError> {
+    with_dofs!(joint.dofs.size(), D => tangents::<D>(joint, amplitude))
+}
+
 /// Small motion about a relative displacement.
-struct Tangent {
+pub(super) struct Tangent {
     at: Vec<f64>,
-    stiffness: DMatrix<f64>,
-    damping: DMatrix<f64>,
+    pub(super) stiffness: DMatrix<f64>,
+    pub(super) damping: DMatrix<f64>,
 }
 
 /// The relative motion q̈ + C q̇ + K q = 0 in coordinates q = W^−½ r with W = M_a⁻¹ + M_b⁻¹.

@@ -6,9 +6,11 @@
 #![forbid(unsafe_code)]
 
 mod element;
+mod flexible;
 mod lap;
 mod stability;
 
 pub use element::{CouplingError, Inertia, Master, Neighbours, element_bound};
+pub use flexible::{Flexible, LoadOfStep};
 pub use lap::{Restraint, lap_bound};
 pub use stability::StepBound;

@@ -1,5 +1,7 @@
 //! Writes an FMU's `modelDescription.xml`: that of all joints, without what the joint lacks, with the joint's values.
 
+use std::collections::BTreeMap;
+
 use bolted_joint_interface::{Expanded, Interface as Checked, Joints, Rows};
 use fmi_schema::fmi3::{
     Causality, DefaultExperiment, DependenciesKind, Float64Type, Fmi3ModelDescription, Fmi3Unknown,
@@ -8,9 +10,10 @@ use fmi_schema::fmi3::{
 use fmi_schema::traits::FmiModelDescription as _;
 use fmi_schema::utils::AttrList;
 
+use super::nominal::{Magnitudes, power_of_ten};
 use super::step::Experiment;
 use super::{ExportError, FmiVersion, Interface, Timestamp, fmi2, xml};
-use bolted_joint_joint::DofSet;
+use bolted_joint_joint::{About, DofSet};
 
 /// File name of the model description in an FMU.
 pub(super) const FILE: &str = "modelDescription.xml";
@@ -129,6 +132,40 @@ impl Description {
         Ok(parameters)
     }
 
+    /// Gives types typical magnitudes: those of the parameters' start values, and these of other types. States keep theirs, which
+    /// the library knows by itself.
+    pub(super) fn set_nominals(&mut self, magnitudes: &Magnitudes) {
+        let states: Vec<u32> = floats(&self.tree)
+            .filter_map(|own| own.derivative)
+            .collect();
+        let mut sizes: BTreeMap<String, f64> = magnitudes
+            .iter()
+            .map(|(&name, &size)| (name.to_owned(), size))
+            .collect();
+        for own in floats(&self.tree) {
+            let (Some(declared), Some(AttrList(start))) = (&own.declared_type, &own.start) else {
+                continue;
+            };
+            if own.causality == Some(Causality::Parameter) {
+                let size = start.iter().fold(0.0_f64, |size, own| size.max(own.abs()));
+                let largest = sizes.entry(declared.clone()).or_insert(0.0);
+                *largest = largest.max(size);
+            }
+        }
+        for own in floats(&self.tree).filter(|own| states.contains(&own.value_reference)) {
+            sizes.remove(own.declared_type.as_deref().unwrap_or_default());
+        }
+        let definitions = self.tree.type_definitions.iter_mut();
+        for definition in definitions.flat_map(|all| &mut all.type_definitions) {
+            if let TypeDefinition::Float64(own) = definition
+                && let Some(size) = sizes.get(&own.name).copied().and_then(power_of_ten)
+                && own.nominal.is_some()
+            {
+                own.nominal = Some(size);
+            }
+        }
+    }
+
     /// Gives the preload of a joint over the preload its start value and, where its table ends, its range; N·m.
     pub(super) fn set_preload(&mut self, nominal_n_m: f64, range_n_m: Option<[f64; 2]>) {
         for float64 in floats_mut(&mut self.tree) {
@@ -141,13 +178,29 @@ impl Description {
         }
     }
 
-    /// Name of the shared library, without extension.
-    pub(super) fn model_identifier(&self) -> String {
-        self.tree
+    /// Name of the shared library, without extension, and of what tools make of the FMU.
+    pub(super) fn set_identifier(&mut self, identifier: &str) {
+        let tree = &mut self.tree;
+        let of_exchange = tree
+            .model_exchange
+            .iter_mut()
+            .map(|own| &mut own.model_identifier);
+        let of_simulation = tree
             .co_simulation
-            .as_ref()
-            .map(|co_simulation| co_simulation.model_identifier.clone())
-            .unwrap_or_default()
+            .iter_mut()
+            .map(|own| &mut own.model_identifier);
+        of_exchange
+            .chain(of_simulation)
+            .for_each(|own| identifier.clone_into(own));
+    }
+
+    /// Who stands behind the model, and what others may do with it.
+    pub(super) fn set_about(&mut self, about: Option<&About>) {
+        let about = about.cloned().unwrap_or_default();
+        self.tree.author = about.author;
+        self.tree.version = about.version;
+        self.tree.license = about.license;
+        self.tree.copyright = about.copyright;
     }
 
     /// The text so far, which the token is made from.

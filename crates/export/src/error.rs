@@ -166,6 +166,46 @@ pub enum ExportError {
         /// The other.
         other: String,
     },
+    /// A name that no library can have.
+    #[error(
+        "model identifier: found {found:?}, expected letters, digits and underscores with no digit in front, 128 at most, such as Bolt_M10; \
+         leave --model-identifier out for one that is made of the name"
+    )]
+    NotAnIdentifier {
+        /// The name.
+        found: String,
+    },
+    /// A name by which the parts of an assembly cannot be told apart.
+    #[error("`{key}`: found {found}, expected {expected}")]
+    Part {
+        /// Key in the assembly file.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// Draws are asked for where nothing is uncertain.
+    #[error(
+        "draws: found no standard deviation above zero in the files of the joints {}, expected `uncertainty` in one of them at least, \
+         as `identify` writes it; leave --draws out",
+        joints.join(", ")
+    )]
+    NothingToDraw {
+        /// Names of the joints.
+        joints: Vec<String>,
+    },
+    /// A joint whose deviations are so large that draws of it are hardly ever passive.
+    #[error(
+        "draws: of the joint {joint}, {tries} draws in a row can feed energy into a simulation, expected deviations with which it mostly \
+         cannot; take a joint that is known better, or insist with --allow-active"
+    )]
+    NeverPassive {
+        /// Name of the joint.
+        joint: String,
+        /// Draws that were made.
+        tries: usize,
+    },
     /// The model description cannot be read or written. A mistake in this program.
     #[error("model description: {0}; please report this")]
     Description(#[from] fmi_schema::Error),

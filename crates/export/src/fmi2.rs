@@ -203,7 +203,9 @@ struct Variables<'a>(Vec<&'a FmiFloat64>);
 
 impl<'a> Variables<'a> {
     fn of(tree: &'a Fmi3ModelDescription) -> Self {
-        Self(floats(tree).collect())
+        // the independent variable may be left out, and tools that make a block of an FMU have a time of their own
+        let is_time = |own: &&FmiFloat64| own.causality == Some(Causality::Independent);
+        Self(floats(tree).filter(|own| !is_time(own)).collect())
     }
 
     fn index(&self, reference: u32) -> Option<usize> {

@@ -9,6 +9,8 @@ use super::assets::pictures;
 use super::declared::kind;
 use super::description::{self, Description};
 use super::documentation::{self, Page};
+use super::identifier::model_identifier;
+use super::nominal;
 use super::package::{Entry, Packed, packed};
 use super::parameters::start_value;
 use super::platforms::Library;
@@ -27,6 +29,8 @@ pub struct ExportOptions {
     pub interface: Interface,
     /// Version of the FMI standard.
     pub version: FmiVersion,
+    /// Name of the library and of the class that tools make of the FMU; made of the model's name where it is not given.
+    pub model_identifier: Option<String>,
     /// Longest Runge–Kutta step of a lap, s; picked from its eigenvalues where it is not given.
     pub step_size_max_s: Option<f64>,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
@@ -62,6 +66,8 @@ pub struct Exported {
     pub escape_amplitude: Vec<Option<f64>>,
     /// Whether the joint is passive, by matrix.
     pub passivity: Passivity,
+    /// Its parameters with their start values.
+    pub parameters: Vec<(String, f64)>,
     /// Why the joint is not to be relied on; empty where it may be used.
     pub reasons_against: Vec<String>,
     packed: Packed,
@@ -215,13 +221,19 @@ fn fmu(
     description.set_version(options.version);
     let summary = format!("{}: {}", file.name, options.interface.summary());
     description.set_names(&file.name, summary);
+    let kind = options.interface.name();
+    let identifier = model_identifier(options.model_identifier.as_deref(), &file.name, kind)?;
+    description.set_identifier(&identifier);
+    description.set_about(subject.source().about.as_ref());
     let experiment = experiment(file, lap.as_ref());
     if let Some(experiment) = experiment {
         description.set_experiment(experiment);
     }
+    let magnitudes = nominal::magnitudes(file)?;
     let longest_step_s = step.map(|step| step.longest_s);
     let mut parameters =
         description.set_parameters(|name| start_value(file, longest_step_s, name))?;
+    description.set_nominals(&magnitudes);
     if let Some(table) = subject.table() {
         let range = match (table.preload.first(), table.preload.last()) {
             (Some(&first), Some(&last)) if !options.extrapolate => Some([first, last]),
@@ -232,9 +244,8 @@ fn fmu(
     }
     let table =
         laws_line(subject.source()) + &table_lines(&subject.source().joint, options.extrapolate);
-    let library_name = description.model_identifier();
-    let parameters = parameter_lines(&parameters);
-    let resources = format!("{table}{parameters}");
+    let lines = parameter_lines(&parameters);
+    let resources = format!("{table}{lines}");
     let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;
 
@@ -264,7 +275,7 @@ fn fmu(
         File::text(description::FILE, xml),
         File::text(
             "resources/start.txt",
-            start_file(options.interface, dofs, &token, &table, &parameters),
+            start_file(options.interface, dofs, &token, &table, &lines),
         ),
     ];
     files.extend(sources);
@@ -287,14 +298,9 @@ fn fmu(
         step,
         escape_amplitude: lap.map(|lap| lap.escape_amplitude).unwrap_or_default(),
         passivity,
+        parameters,
         reasons_against: subject.source().reasons_against().to_vec(),
-        packed: packed(
-            files,
-            platforms,
-            &library_name,
-            options.version,
-            options.date,
-        )?,
+        packed: packed(files, platforms, &identifier, options.version, options.date)?,
     })
 }
 

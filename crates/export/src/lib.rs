@@ -15,7 +15,9 @@ mod error;
 mod fmi2;
 mod fmi_version;
 mod fmu;
+mod identifier;
 mod interface;
+mod nominal;
 mod package;
 mod parameters;
 mod platforms;
@@ -23,6 +25,7 @@ mod provenance;
 mod reference_run;
 mod start_file;
 mod step;
+mod system;
 mod terminals;
 mod token;
 mod xml;
@@ -44,3 +47,4 @@ pub use start_file::{
     table_lines,
 };
 pub use step::{StepChoice, StepSize};
+pub use system::{Dialect, DrawnJoint, ExportedSystem, SystemOptions, assembly_system};

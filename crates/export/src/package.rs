@@ -27,6 +27,19 @@ pub struct Packed {
 }
 
 impl Packed {
+    /// The archive of these files, without libraries of its own.
+    pub(super) fn of(files: &[File], date: Timestamp) -> Result<Self, ExportError> {
+        let entries = files.iter().map(|file| Entry {
+            path: file.path.clone(),
+            size: file.bytes.len(),
+        });
+        Ok(Self {
+            libraries: Vec::new(),
+            entries: entries.collect(),
+            bytes: archive(files, date)?,
+        })
+    }
+
     /// The FMU itself.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
@@ -63,14 +76,8 @@ pub(super) fn packed(
             executable: true,
         });
     }
-    let bytes = archive(&files, date)?;
-    let entries = files.into_iter().map(|file| Entry {
-        path: file.path,
-        size: file.bytes.len(),
-    });
     Ok(Packed {
         libraries,
-        bytes,
-        entries: entries.collect(),
+        ..Packed::of(&files, date)?
     })
 }

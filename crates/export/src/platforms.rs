@@ -12,6 +12,9 @@ pub const EMBEDDED_LIBRARY: &[u8] = include_bytes!(env!("BOLTED_JOINT_LIBRARY"))
 /// That platform, as FMI 3.0 names it.
 pub const EMBEDDED_PLATFORM: &str = env!("BOLTED_JOINT_PLATFORM");
 
+/// Name of the libraries in the folders of platforms, without extension.
+const SOURCE_NAME: &str = "bolted_joint";
+
 /// Architectures of FMI 3.0's platform names (section 2.5.1.4.1).
 const ARCHITECTURES: [&str; 8] = [
     "aarch32", "aarch64", "ppc32", "ppc64", "riscv32", "riscv64", "x86", "x86_64",
@@ -78,7 +81,7 @@ pub(super) struct Binary {
 
 /// The embedded library and those in `folder`, by platform; a library in the folder comes before the embedded one.
 ///
-/// `name` is the libraries' name without extension. The folders in `folder` have the names of FMI 3.0 whatever the
+/// `name` is the libraries' name in the FMU, without extension. The folders in `folder` have the names of FMI 3.0 whatever the
 /// `version` that the FMU follows. Files and hidden folders beside the platforms' are left alone.
 pub(super) fn binaries(
     folder: Option<&Path>,
@@ -123,7 +126,7 @@ fn from_folder(folder: &Path, name: &str, version: FmiVersion) -> Result<Vec<Bin
             architectures: ARCHITECTURES.to_vec(),
             systems: SYSTEMS.iter().map(|system| system.suffix).collect(),
         })?;
-        let library = path.join(format!("{name}.{}", system.extension));
+        let library = path.join(format!("{SOURCE_NAME}.{}", system.extension));
         let bytes = fs::read(&library).map_err(|source| match source.kind() {
             io::ErrorKind::NotFound => ExportError::NoLibrary {
                 path: library.clone(),

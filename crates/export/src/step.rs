@@ -123,7 +123,7 @@ impl StepSize {
 impl Experiment {
     /// Some periods of the slowest mode, in communication steps that hold a whole number of Runge–Kutta steps.
     pub(super) fn of_lap(spectrum: Option<&Spectrum>, step: &StepSize) -> Self {
-        let communication_step_s = rounded_down(STEPS_PER_COMMUNICATION_STEP * step.longest_s, 2);
+        let longest_s = STEPS_PER_COMMUNICATION_STEP * step.longest_s;
         let slowest = spectrum
             .into_iter()
             .flat_map(Spectrum::eigenvalues)
@@ -132,26 +132,43 @@ impl Experiment {
             .fold(f64::INFINITY, f64::min);
         // T = 2π/ω
         let wanted_s = SUGGESTED_PERIODS * TAU / slowest;
-        let most_s = SUGGESTED_STEPS * communication_step_s;
+        let most_s = SUGGESTED_STEPS * longest_s;
         let stop_s = if wanted_s > 0.0 {
             wanted_s.min(most_s)
         } else {
             most_s.min(1.0)
         };
+        let stop_s = rounded_down(stop_s, 1);
         Self {
-            stop_s: rounded_down(stop_s, 1),
-            communication_step_s,
+            stop_s,
+            communication_step_s: dividing(longest_s, stop_s),
         }
     }
 
     /// Twenty samples a period of the highest frequency that the joint was identified at.
     pub(super) fn of_element(highest_frequency_hz: f64) -> Self {
-        let communication_step_s = rounded_down(1.0 / (20.0 * highest_frequency_hz), 2);
+        let longest_s = 1.0 / (20.0 * highest_frequency_hz);
+        let stop_s = rounded_down((SUGGESTED_STEPS * longest_s).min(1.0), 1);
         Self {
-            stop_s: rounded_down((SUGGESTED_STEPS * communication_step_s).min(1.0), 1),
-            communication_step_s,
+            stop_s,
+            communication_step_s: dividing(longest_s, stop_s),
         }
     }
+}
+
+/// The longest step of two digits that is not above `step_s` and of which the stop time is a whole multiple: some tools refuse
+/// others.
+fn dividing(step_s: f64, stop_s: f64) -> f64 {
+    let exponent = step_s.log10().floor() as i32 - 1;
+    let leading = (step_s / 10.0_f64.powi(exponent) * (1.0 + 1e-12)).floor();
+    // written as text, so that each is the very number
+    let steps = (10..=leading as u32).rev();
+    let mut steps = steps.filter_map(|digits| format!("{digits}e{exponent}").parse().ok());
+    let divides = |step_s: &f64| {
+        let count = stop_s / step_s;
+        count >= 1.0 && (count - count.round()).abs() < 1e-9 * count
+    };
+    steps.find(divides).unwrap_or(step_s)
 }
 
 /// Longest step (s) with which RK4 is stable, by bisection.
@@ -288,6 +305,32 @@ mod tests {
         // 20 periods of 670.35 rad/s are 0.187 s.
         assert_eq!(experiment.stop_s, 0.1);
         assert_eq!(step.longest_s, 3.1e-5);
-        assert_eq!(experiment.communication_step_s, 1.5e-4);
+        // five Runge–Kutta steps are 1.55e-4 s, and the longest below that of which 0.1 s is a multiple is this one
+        assert_eq!(experiment.communication_step_s, 1e-4);
+    }
+
+    #[test]
+    fn the_suggested_step_divides_the_stop_time() {
+        for (longest, stop, expected) in [
+            (9.7e-5, 1.0, 8e-5),
+            (1.55e-4, 0.3, 1.5e-4),
+            (1e-4, 0.1, 1e-4),
+            (9.99e-6, 0.7, 8e-6),
+        ] {
+            let found = dividing(longest, stop);
+            assert_eq!(found, expected, "{longest} {stop}");
+            // in decimal: as the texts are
+            let digits = |number: f64| format!("{number:e}");
+            let (step, stop) = (digits(found), digits(stop));
+            assert!(step.len() <= 6 && stop.len() <= 6, "{step} {stop}");
+        }
+        for frequency_hz in [3.0, 97.0, 512.0, 1031.0, 5154.6] {
+            let experiment = Experiment::of_element(frequency_hz);
+            let count = experiment.stop_s / experiment.communication_step_s;
+            assert!(
+                (count - count.round()).abs() < 1e-9 * count,
+                "{frequency_hz}: {count}"
+            );
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Terminals of an FMU, one flange a side, and where they stand on its icon.
 
-use bolted_joint_dynamics::DofKind;
+use bolted_joint_dynamics::{Dof, DofKind};
 use bolted_joint_interface::{Interface as Declared, Role};
 
 use super::xml::{Attributes, Document, number};
@@ -33,37 +33,40 @@ pub(super) fn terminals_and_icons(declared: &Declared, dofs: DofSet) -> String {
     })
 }
 
-/// A terminal of one degree of freedom.
+/// A named point of a structure: a terminal for each of its degrees of freedom.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Point {
     pub(super) name: String,
-    pub(super) kind: DofKind,
-    /// Names of its members, and whether each is a load.
-    pub(super) members: Vec<(&'static str, bool)>,
+    pub(super) dofs: Vec<&'static Dof>,
 }
 
 /// The same for an FMU with these points as terminals.
 pub(super) fn of_points(declared: &Declared, points: &[Point]) -> String {
     file(|document| {
         document.element("Terminals", Attributes::new(), |document| {
-            for Point {
-                name,
-                kind,
-                members,
-            } in points
-            {
-                let kind = match kind {
-                    DofKind::Translation => "_bolted_joint.TranslationalPoint",
-                    DofKind::Rotation => "_bolted_joint.RotationalPoint",
+            for Point { name, dofs } in points {
+                let plug = |name: &str, kind, description: String| {
+                    Attributes::new()
+                        .with("name", name)
+                        .with("matchingRule", "plug")
+                        .with("terminalKind", kind)
+                        .with("description", description)
                 };
-                let attributes = Attributes::new()
-                    .with("name", name)
-                    .with("matchingRule", "plug")
-                    .with("terminalKind", kind)
-                    .with("description", format!("Point {name}"));
+                if let [dof] = dofs.as_slice() {
+                    let attributes = plug(name, kind_of(dof.kind), format!("Point {name}"));
+                    document.element("Terminal", attributes, |document| {
+                        add_members(document, declared, name, dof);
+                    });
+                    continue;
+                }
+                let attributes = plug(name, "_bolted_joint.Flange", format!("Point {name}"));
                 document.element("Terminal", attributes, |document| {
-                    for &member in members {
-                        add_member(document, declared, name, member);
+                    for dof in dofs {
+                        let description = format!("Point {name}, degree of freedom {}", dof.name);
+                        let attributes = plug(dof.name, kind_of(dof.kind), description);
+                        document.element("Terminal", attributes, |document| {
+                            add_members(document, declared, name, dof);
+                        });
                     }
                 });
             }
@@ -78,57 +81,66 @@ fn file(content: impl FnOnce(&mut Document)) -> String {
     document.finish()
 }
 
-/// A member of a terminal, if there is such a variable.
-fn add_member(
-    document: &mut Document,
-    declared: &Declared,
-    owner: &str,
-    (member, is_load): (&'static str, bool),
-) {
-    let name = format!("{owner}.{member}");
-    let Some(variable) = declared.variable(&name) else {
-        return;
-    };
-    // Loads are counted as acting on the body: those of lap and structures flow in, those that the element puts on its
-    // neighbours flow out.
-    let kind = match (is_load, variable.role) {
-        (true, Role::Input) => "inflow",
-        (true, _) => "outflow",
-        (false, _) => "signal",
-    };
-    let attributes = Attributes::new()
-        .with("variableName", &name)
-        .with("memberName", member)
-        .with("variableKind", kind);
-    document.empty("TerminalMemberVariable", attributes);
+/// Kind of a terminal of one degree of freedom, after the connector whose names its members have.
+fn kind_of(kind: DofKind) -> &'static str {
+    match kind {
+        DofKind::Translation => "Modelica.Mechanics.Translational.Interfaces.Flange",
+        DofKind::Rotation => "Modelica.Mechanics.Rotational.Interfaces.Flange",
+    }
 }
 
-/// The flange of one side: motion, equal on both sides of a connection, and load, whose sum there is zero.
+/// Names of motion, rate and load in Modelica's flanges; these have no rate, whose name is that of Modelica's masses and inertias.
+fn members_of(kind: DofKind) -> [&'static str; 3] {
+    match kind {
+        DofKind::Translation => ["s", "v", "f"],
+        DofKind::Rotation => ["phi", "w", "tau"],
+    }
+}
+
+/// Motion, rate and load of a degree of freedom, as far as there are such variables.
+fn add_members(document: &mut Document, declared: &Declared, owner: &str, dof: &Dof) {
+    let quantities = [(dof.name, false), (dof.rate, false), (dof.load, true)];
+    for ((quantity, is_load), member) in quantities.into_iter().zip(members_of(dof.kind)) {
+        let name = format!("{owner}.{quantity}");
+        let Some(variable) = declared.variable(&name) else {
+            continue;
+        };
+        // Loads are counted as acting on the body: those of lap and structures flow in, those that the element puts on its
+        // neighbours flow out.
+        let kind = match (is_load, variable.role) {
+            (true, Role::Input) => "inflow",
+            (true, _) => "outflow",
+            (false, _) => "signal",
+        };
+        let attributes = Attributes::new()
+            .with("variableName", &name)
+            .with("memberName", member)
+            .with("variableKind", kind);
+        document.empty("TerminalMemberVariable", attributes);
+    }
+}
+
+/// The flange of one side: for each degree of freedom a terminal with motion, equal on both sides of a connection, and load,
+/// whose sum there is zero.
 fn terminal(document: &mut Document, declared: &Declared, dofs: DofSet, side: &str, middle: f64) {
-    let of_kind = |kind, word| {
-        let mut members = dofs.rows();
-        if members.any(|dof| dof.kind == kind) {
-            word
-        } else {
-            ""
-        }
-    };
-    let kind = format!(
-        "_bolted_joint.{}{}Flange",
-        of_kind(DofKind::Translation, "Translational"),
-        of_kind(DofKind::Rotation, "Rotational")
-    );
     let attributes = Attributes::new()
         .with("name", side)
         .with("matchingRule", "plug")
-        .with("terminalKind", kind)
+        .with("terminalKind", "_bolted_joint.Flange")
         .with("description", format!("Flange of side {side}"));
     document.element("Terminal", attributes, |document| {
-        let displacements = dofs.rows().map(|dof| (dof.name, false));
-        let rates = dofs.rows().map(|dof| (dof.rate, false));
-        let loads = dofs.rows().map(|dof| (dof.load, true));
-        for (member, is_load) in displacements.chain(rates).chain(loads) {
-            add_member(document, declared, side, (member, is_load));
+        for dof in dofs.rows() {
+            let attributes = Attributes::new()
+                .with("name", dof.name)
+                .with("matchingRule", "plug")
+                .with("terminalKind", kind_of(dof.kind))
+                .with(
+                    "description",
+                    format!("Side {side}, degree of freedom {}", dof.name),
+                );
+            document.element("Terminal", attributes, |document| {
+                add_members(document, declared, side, dof);
+            });
         }
         let place = extent(middle - FLANGE, -FLANGE, middle + FLANGE, FLANGE)
             .with("defaultConnectionColor", CONNECTION_RGB)

@@ -42,6 +42,7 @@ impl Identification {
             None => self.name.clone(),
         };
         JointFile {
+            about: None,
             format: Format::V1,
             name,
             status: Status::against(&self.reasons_against),

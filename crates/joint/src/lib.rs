@@ -4,6 +4,7 @@
 //! [`Passivity`] tells whether the joint can feed energy into a simulation, which reading does not judge.
 #![forbid(unsafe_code)]
 
+mod about;
 mod at_preload;
 mod dofs;
 mod error;
@@ -22,6 +23,7 @@ mod units;
 mod validate;
 mod write;
 
+pub use about::About;
 pub use dofs::{DofName, DofSet};
 pub use error::{JointFileError, TextPlace};
 pub use friction::Friction;

@@ -25,6 +25,14 @@ pub enum JointProblem {
         /// Number of reasons.
         reasons: usize,
     },
+    /// An author or a licence that is not one line of text.
+    #[error("about.{key}: found {found:?}, expected one line of text")]
+    About {
+        /// Key of the text.
+        key: &'static str,
+        /// The text.
+        found: String,
+    },
     /// A reason that is not one line of text.
     #[error("status.reasons: found {found:?}, expected one line of text each")]
     Reason {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
 use super::schema::{entries_above_zero, with_friction, with_friction_over_preload};
-use super::{DofSet, Friction, HigherTerms, Status};
+use super::{About, DofSet, Friction, HigherTerms, Status};
 
 /// A bolted joint, with what is known about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,6 +21,9 @@ pub struct JointFile {
     /// Name of the joint, one line.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub name: String,
+    /// Who stands behind the joint, and what others may do with it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
     /// Whether the joint may be relied on; without it, it may.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub status: Option<Status>,

@@ -3,8 +3,8 @@
 use bolted_joint_dynamics::law::Range;
 
 use super::{
-    Body, Correlation, DofSet, Friction, HigherTerms, Joint, JointFile, JointProblem, OverPreload,
-    StandardDeviation, Status, UncertaintyOverPreload,
+    About, Body, Correlation, DofSet, Friction, HigherTerms, Joint, JointFile, JointProblem,
+    OverPreload, StandardDeviation, Status, UncertaintyOverPreload,
 };
 
 /// Whether a name is one line of text. It becomes an attribute in XML, which has no control characters and none of the two
@@ -29,6 +29,14 @@ impl JointFile {
             check.problems.push(JointProblem::Name {
                 found: self.name.clone(),
             });
+        }
+        for (key, text) in self.about.iter().flat_map(About::texts) {
+            if !is_one_line(text) {
+                check.problems.push(JointProblem::About {
+                    key,
+                    found: text.to_owned(),
+                });
+            }
         }
         if let Some(status) = &self.status {
             check.status(status);

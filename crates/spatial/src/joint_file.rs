@@ -52,6 +52,7 @@ impl Told<'_> {
         };
         let [stiffness, damping] = self.matrices;
         JointFile {
+            about: None,
             format: Format::V1,
             name: self.name,
             status: Status::against(self.reasons_against),

@@ -10,7 +10,7 @@ use super::super::error::CliError;
 use super::super::invocation::platforms;
 use super::super::output::{check_output, message, note, print, warn};
 use super::super::table::number;
-use super::ExportArguments;
+use super::{ExportArguments, system};
 
 pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     for (option, given) in [
@@ -24,11 +24,16 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
             return Err(CliError::option(option, "it", expected));
         }
     }
+    if system::is_asked_for(&arguments.output) {
+        return system::run(arguments);
+    }
+    arguments.refuse_options_of_systems("none: it is for an SSP; write one with -o NAME.ssp")?;
     let text = StudyText::read(&arguments.joint_file)?;
     check_output(&arguments.output, &[&arguments.joint_file])?;
     let model = AssemblyModel::of(&text)?;
     let options = AssemblyOptions {
-        version: arguments.fmi.into(),
+        version: arguments.fmi.map_or_else(Default::default, Into::into),
+        model_identifier: arguments.model_identifier.clone(),
         platforms: arguments.platforms.clone().or_else(platforms),
         allow_active: arguments.allow_active,
         allow_unusable: arguments.unusable,
@@ -43,6 +48,17 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     exported.packed.write(&arguments.output)?;
     warn(&model.warnings);
     note(&model.notes);
+    warn_of_joints(&model);
+    if arguments.json {
+        return print(&serde_json::to_string_pretty(&as_json(
+            &exported, &model, arguments,
+        ))?);
+    }
+    print(&summary(&exported, &model, arguments))
+}
+
+/// What speaks against the joints.
+pub(super) fn warn_of_joints(model: &AssemblyModel) {
     for joint in &model.joints {
         for reason in joint.whole().reasons_against() {
             message(&format!(
@@ -57,12 +73,6 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
             ));
         }
     }
-    if arguments.json {
-        return print(&serde_json::to_string_pretty(&as_json(
-            &exported, &model, arguments,
-        ))?);
-    }
-    print(&summary(&exported, &model, arguments))
 }
 
 /// What was written, in five lines.

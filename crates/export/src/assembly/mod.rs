@@ -17,19 +17,24 @@ use bolted_joint_joint::Passivity;
 use super::archive::File;
 use super::description::{self, Description};
 use super::documentation::{self, AssemblyPage};
+use super::identifier::model_identifier;
 use super::package::{Packed, packed};
 use super::reference_run::ReferenceRun;
 use super::start_file::HEADER;
 use super::terminals::{self, Point};
 use super::token::token;
 use super::{ExportError, FmiVersion, Timestamp};
-use variables::{List, letters};
+pub(super) use names::check_word;
+use variables::List;
+pub(super) use variables::letters;
 
 /// How an assembly is exported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssemblyOptions {
     /// Version of the FMI standard.
     pub version: FmiVersion,
+    /// Name of the library and of the class that tools make of the FMU; made of the model's name where it is not given.
+    pub model_identifier: Option<String>,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
     pub platforms: Option<PathBuf>,
     /// Whether joints that can feed energy into a simulation are exported all the same.
@@ -55,6 +60,8 @@ pub struct ExportedAssembly {
     pub coordinates: usize,
     /// Suggested communication step, s.
     pub suggested_step_s: f64,
+    /// Suggested end of a simulation, s.
+    pub suggested_stop_s: f64,
     /// Its files and libraries.
     pub packed: Packed,
 }
@@ -96,6 +103,13 @@ pub fn assembly_fmu(
     )?;
     description.set_version(options.version);
     description.set_names(&model.name, format!("{}: {SUMMARY}", model.name));
+    let identifier = model_identifier(
+        options.model_identifier.as_deref(),
+        &model.name,
+        equations::MODEL,
+    )?;
+    description.set_identifier(&identifier);
+    description.set_about(model.about.as_ref());
     let experiment = experiment::suggested(model, &assembly);
     description.set_experiment(experiment);
     let declared = description.declared()?;
@@ -110,7 +124,6 @@ pub fn assembly_fmu(
     let nominal = |place: usize| of(place).map_or(1.0, |own| own.nominal);
     let resources = equations::list_lines(&list, unit, nominal)
         + &equations::equation_lines(model, &assembly, options.extrapolate);
-    let library_name = description.model_identifier();
     let token = token(&[&description.text()?, &resources]);
     let (xml, declared) = description.finish(&token, options.date)?;
     let mut files = vec![
@@ -163,10 +176,11 @@ pub fn assembly_fmu(
         token,
         coordinates: assembly.size(),
         suggested_step_s: experiment.communication_step_s,
+        suggested_stop_s: experiment.stop_s,
         packed: packed(
             files,
             options.platforms.as_deref(),
-            &library_name,
+            &identifier,
             options.version,
             options.date,
         )?,
@@ -176,20 +190,14 @@ pub fn assembly_fmu(
 /// The points of loads and motions, one terminal for each name.
 fn points(model: &AssemblyModel) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
-    let outputs = model.outputs.iter().map(|channel| (channel, false));
-    let inputs = model.inputs.iter().map(|channel| (channel, true));
-    for (channel, is_load) in outputs.chain(inputs) {
+    for channel in model.outputs.iter().chain(&model.inputs) {
         let dof = letters(channel);
-        let members = match is_load {
-            true => vec![(dof.load, true)],
-            false => vec![(dof.name, false), (dof.rate, false)],
-        };
         match points.iter_mut().find(|point| point.name == channel.name) {
-            Some(point) => point.members.extend(members),
+            Some(point) if point.dofs.contains(&dof) => {}
+            Some(point) => point.dofs.push(dof),
             None => points.push(Point {
                 name: channel.name.clone(),
-                kind: dof.kind,
-                members,
+                dofs: vec![dof],
             }),
         }
     }

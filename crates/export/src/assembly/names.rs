@@ -48,7 +48,7 @@ pub(super) fn check(model: &AssemblyModel) -> Result<(), ExportError> {
     Ok(())
 }
 
-fn check_word(key: &str, name: &str) -> Result<(), ExportError> {
+pub(crate) fn check_word(key: &str, name: &str) -> Result<(), ExportError> {
     let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     if is_word && !TAKEN.contains(&name) {

@@ -168,7 +168,7 @@ pub(super) fn of_joint(joint: &str, declared: &str) -> String {
 }
 
 /// The letters of a place's quantities: those in a plane along y and about z, those in space otherwise.
-pub(super) fn letters(channel: &Channel) -> &'static Dof {
+pub(crate) fn letters(channel: &Channel) -> &'static Dof {
     let row = match channel.place.dof.direction() {
         Direction::Y | Direction::Scalar => 0,
         Direction::RZ => 1,

@@ -82,6 +82,9 @@ impl Instance {
         change: &mut Values,
     ) -> Result<(), Refusal> {
         self.model.differentiate_outputs(values, change);
+        if self.begins() {
+            self.model.hold_at_start(change);
+        }
         for &unknown in unknowns {
             let (_, roles) = self.known(unknown)?;
             if roles.intersects(CALCULATED_PARAMETERS) {

@@ -105,6 +105,9 @@ pub(crate) trait Model: Send {
     /// Turns a direction of change, given for parameters, inputs and states, into the first-order change of all
     /// variables at the point `values` but calculated parameters: writes those of outputs and derivatives to `change`, exactly.
     fn differentiate_outputs(&self, values: &Values, change: &mut Values);
+
+    /// Takes out of `change` what has one value wherever the simulation starts.
+    fn hold_at_start(&self, _change: &mut Values) {}
 }
 
 /// Why a step is refused whose heat overflows.

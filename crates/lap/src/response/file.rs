@@ -46,6 +46,7 @@ impl LapResponse {
             damping: vec![values.support_damping.max(0.0)],
         };
         JointFile {
+            about: None,
             format: Format::V1,
             name: self.name.clone(),
             status: None,

@@ -50,6 +50,7 @@ impl LapUpdate {
         };
         let at = torque.uncertainty();
         JointFile {
+            about: None,
             format: Format::V1,
             name,
             status: None,

@@ -162,6 +162,7 @@ pub(super) fn lap_file(
     };
     let above = (frequency(mode) * frequency(mode + 1)).sqrt();
     let file = JointFile {
+        about: None,
         format: Format::V1,
         name: study.name.clone(),
         status: None,

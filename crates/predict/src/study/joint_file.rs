@@ -24,6 +24,7 @@ impl Prediction<'_> {
         let mut joint = Joint::linear(dofs, part.stiffness.clone(), part.damping.clone());
         joint.friction.extend(friction(nominal));
         JointFile {
+            about: None,
             format: Format::V1,
             name: self.study.name.clone(),
             status: None,

@@ -412,6 +412,11 @@ impl<const D: usize> Model for LooseningLap<D> {
         .write(values);
     }
 
+    fn hold_at_start(&self, change: &mut Values) {
+        // nothing has passed yet, whatever the preload is that it begins with
+        change[vr::ENERGY_PRELOAD] = 0.0;
+    }
+
     fn differentiate_outputs(&self, values: &Values, change: &mut Values) {
         let lap = self.lap(values);
         let preload_n_m = values[vr::PRELOAD];

@@ -1,0 +1,79 @@
+//! The name of an FMU's library and of the class that import tools make of it: FMI's `modelIdentifier`.
+
+use super::ExportError;
+
+/// Longest identifier that is made of a name: tools make paths and class names of it.
+const LONGEST: usize = 48;
+/// Longest that is taken from the user.
+const LONGEST_GIVEN: usize = 128;
+
+/// The identifier that the user gives, or one that is made of the model's name and of what it is.
+pub(super) fn model_identifier(
+    given: Option<&str>,
+    name: &str,
+    kind: &str,
+) -> Result<String, ExportError> {
+    match given {
+        None => Ok(made_of(name, kind)),
+        Some(given) if is_identifier(given) && given.len() <= LONGEST_GIVEN => Ok(given.to_owned()),
+        Some(found) => Err(ExportError::NotAnIdentifier {
+            found: found.to_owned(),
+        }),
+    }
+}
+
+/// Whether C takes it as a name (FMI 3.0, 2.4.1.1; FMI 2.0, 3.3.1).
+fn is_identifier(text: &str) -> bool {
+    let letters = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    letters && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+}
+
+/// The words of the name, with underscores between them, and the kind behind them.
+fn made_of(name: &str, kind: &str) -> String {
+    let words = name.split(|c: char| !c.is_ascii_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    let mut own = words.join("_");
+    own.truncate(LONGEST);
+    let own = own.trim_end_matches('_');
+    match own.chars().next() {
+        None => format!("joint_{kind}"),
+        Some(first) if first.is_ascii_digit() => format!("joint_{own}_{kind}"),
+        Some(_) => format!("{own}_{kind}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::model_identifier;
+
+    #[test]
+    fn names_become_identifiers_of_c() {
+        for (name, expected) in [
+            (
+                "M10x16 A2-70 on 6 mm aluminium",
+                "M10x16_A2_70_on_6_mm_aluminium_lap",
+            ),
+            ("8.8 bolt", "joint_8_8_bolt_lap"),
+            ("Größe", "Gr_e_lap"),
+            ("螺栓", "joint_lap"),
+        ] {
+            assert_eq!(model_identifier(None, name, "lap").unwrap(), expected);
+        }
+        let long = model_identifier(None, &"word ".repeat(40), "lap").unwrap();
+        assert!(long.len() <= 52 && !long.contains("__"), "{long}");
+    }
+
+    #[test]
+    fn what_is_none_is_refused() {
+        assert_eq!(
+            model_identifier(Some("Bolt_1"), "x", "lap").unwrap(),
+            "Bolt_1"
+        );
+        for given in ["", "1bolt", "a b", "a-b", "ä", &"a".repeat(200)] {
+            assert!(
+                model_identifier(Some(given), "x", "lap").is_err(),
+                "{given}"
+            );
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! The strongest functions of the assembly: measured, computed with the joint, and what is left.
 
-use bolted_joint_figures::html::{escaped, percent};
+use bolted_joint_figures::html::{HOW_TO_READ, escaped, percent};
 use bolted_joint_frf::receptance_unit;
 use bolted_joint_spatial::{SpatialIdentification, SpatialStudy};
 
@@ -12,19 +12,19 @@ pub(super) fn section(found: &SpatialIdentification) -> String {
     let mut html = format!(
         "<h2>Frequency response functions</h2>\n<p>Measured, and regenerated with the identified joint: the strongest of {}, two \
          within each substructure and two across the joint each way, as far as they were measured. All were used; their residual \
-         is {} r.m.s. <span class=\"script-only\">Point at a figure to read values, drag across it to zoom, double-click for the \
-         whole range.</span></p>\n",
+         is {} r.m.s.</p>\n{HOW_TO_READ}",
         counted(found.functions, "function"),
         percent(found.relative_rms)
     );
     for (number, fit) in found.fits.iter().enumerate() {
         html += &drawn(&Function {
             id: &format!("frf-{}", number + 1),
-            between: [fit.response, fit.reference],
+            name: &format!("{} / {}", fit.response, fit.reference),
+            unit: receptance_unit(fit.response, fit.reference),
+            remark: &format!(" residual {} r.m.s.", percent(fit.relative_rms)),
             frequency_hz: &found.frequency_hz,
             measured: &fit.measured,
             regenerated: &fit.computed,
-            relative_rms: fit.relative_rms,
         });
     }
     html

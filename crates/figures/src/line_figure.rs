@@ -117,18 +117,22 @@ impl LineFigure<'_> {
     pub fn drawn(&self) -> Option<Drawn> {
         let svg = self.to_svg()?;
         let [across, up] = self.axes()?;
-        let curves = self.lines.iter().zip(LOOKS).map(|(line, (colour, dashes))| {
-            let look = match (line.shape, dashes) {
-                (Shape::Marks, _) => Look::dots(colour, 2.0 * MARK),
-                (Shape::Curve, Some(dashes)) => Look::dashed(colour, STROKE, dashes),
-                (Shape::Curve, None) => Look::line(colour, STROKE),
-            };
-            PlotCurve {
-                name: line.name.clone(),
-                look,
-                points: PlotPoints::Path(line.points.clone(), Vec::new()),
-            }
-        });
+        let curves = self
+            .lines
+            .iter()
+            .zip(LOOKS)
+            .map(|(line, (colour, dashes))| {
+                let look = match (line.shape, dashes) {
+                    (Shape::Marks, _) => Look::dots(colour, 2.0 * MARK),
+                    (Shape::Curve, Some(dashes)) => Look::dashed(colour, STROKE, dashes),
+                    (Shape::Curve, None) => Look::line(colour, STROKE),
+                };
+                PlotCurve {
+                    name: line.name.clone(),
+                    look,
+                    points: PlotPoints::Path(line.points.clone(), Vec::new()),
+                }
+            });
         let panel = PlotPanel::new(
             "",
             STRIP_HEIGHT,

@@ -171,10 +171,18 @@ fn curve(curve: &PlotCurve) -> Value {
     match &curve.points {
         PlotPoints::Lines(up) => add("y", base64_of_floats(up.iter().copied()).into()),
         PlotPoints::Path(points, is_dashed) => {
-            add("x", base64_of_floats(points.iter().map(|point| point.0)).into());
-            add("y", base64_of_floats(points.iter().map(|point| point.1)).into());
+            add(
+                "x",
+                base64_of_floats(points.iter().map(|point| point.0)).into(),
+            );
+            add(
+                "y",
+                base64_of_floats(points.iter().map(|point| point.1)).into(),
+            );
             if is_dashed.contains(&true) {
-                let digits = is_dashed.iter().map(|&dashed| if dashed { '1' } else { '0' });
+                let digits = is_dashed
+                    .iter()
+                    .map(|&dashed| if dashed { '1' } else { '0' });
                 add("dashed", digits.collect::<String>().into());
             }
         }
@@ -228,7 +236,10 @@ mod tests {
         };
         let json = plot.to_json();
         // 1.0 and 2.5 are 0000803f and 00002040 in little-endian IEEE 754, −0.0 is 00000080.
-        assert!(json.contains("\"AACAPwAAIEA=\"") && json.contains("\"AAAAgA==\""), "{json}");
+        assert!(
+            json.contains("\"AACAPwAAIEA=\"") && json.contains("\"AAAAgA==\""),
+            "{json}"
+        );
         assert!(!json.contains('<') && json.contains("\"dashed\":\"1\""));
     }
 }

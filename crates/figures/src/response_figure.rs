@@ -77,7 +77,9 @@ impl ResponseFigure<'_> {
                 continue;
             };
             plot.is_below = panel.up.1 == Scale::Phase
-                && panels.last().is_some_and(|above| above.across == plot.across);
+                && panels
+                    .last()
+                    .is_some_and(|above| above.across == plot.across);
             panels.push(plot);
         }
         let plot = Plot {

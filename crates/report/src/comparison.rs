@@ -1,10 +1,10 @@
 //! Joints beside each other: each number with its interval of 95 %, a column for each joint.
 
 use bolted_joint_compare::{Comparison, Measured, Row};
-use bolted_joint_figures::{COLOURS, Drawn};
 use bolted_joint_figures::html::{
-    HOW_TO_READ, beside, cell, escaped, figure, number, number_cell, percent, spread, table,
+    beside, cell, escaped, figure, number, number_cell, percent, spread, table,
 };
+use bolted_joint_figures::{COLOURS, Drawn};
 use bolted_joint_files::Timestamp;
 use bolted_joint_joint::with_symbols;
 
@@ -88,7 +88,7 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
     let sections = format!(
         "<h2>Joints</h2>\n<ol>\n{items}</ol>\n<h2>Numbers</h2>\n{}\
          <p>± one standard deviation. Differences are parts of the first value and, in brackets, standard deviations of the \
-         difference of independent estimates.</p>\n{together}{notes}<h2>Intervals</h2>\n{HOW_TO_READ}{}",
+         difference of independent estimates.</p>\n{together}{notes}<h2>Intervals</h2>\n{}",
         table(&headings, &rows),
         figure(
             "intervals",

@@ -2,8 +2,8 @@
 
 use super::chart_data::scaled_unit;
 use bolted_joint_figures::{
-    Axis, Drawn, FONTS, LABELS_BELOW, Lettering, Look, Manner, PathData, Plot, PlotCurve, PlotPanel, PlotPoints, Point,
-    Strip, Svg, VALUE_LABELS,
+    Axis, Drawn, FONTS, LABELS_BELOW, Lettering, Look, Manner, PathData, Plot, PlotCurve,
+    PlotPanel, PlotPoints, Point, Strip, Svg, VALUE_LABELS,
 };
 
 const WIDTH: f64 = 960.0;

@@ -1,8 +1,6 @@
 //! The page of a response, of laps or of an assembly: the largest values, the figure, and what was asked for.
 
-use bolted_joint_figures::html::{
-    self, HOW_TO_READ, cell, escaped, figure, number_cell, shown, table,
-};
+use bolted_joint_figures::html::{self, cell, escaped, figure, number_cell, shown, table};
 use bolted_joint_figures::{Axis, Drawn, PlotPanel, PlotPoints};
 use bolted_joint_files::{TOOL, Timestamp, VERSION};
 
@@ -28,16 +26,23 @@ impl ResponsePage<'_> {
         let warnings = self.warnings.iter();
         let warnings = warnings.map(|text| format!("<p class=\"warning\">{}</p>\n", escaped(text)));
         let sections = format!(
-            "{}<h2>Largest values</h2>\n{}<h2>Response</h2>\n{HOW_TO_READ}{}<h2>What was asked for</h2>\n<pre>{}</pre>\n",
+            "{}<h2>Largest values</h2>\n{}<h2>Response</h2>\n{}<h2>What was asked for</h2>\n<pre>{}</pre>\n",
             warnings.collect::<String>(),
             self.largest(),
-            figure("response", &format!("<b>{}</b>", escaped(self.name)), self.drawn),
+            figure(
+                "response",
+                &format!("<b>{}</b>", escaped(self.name)),
+                self.drawn
+            ),
             escaped(self.study.trim_end()),
         );
         html::page(
             &format!("{}: response", self.name),
             self.name,
-            &format!("Response computed by {TOOL} {VERSION}, <time>{}</time>.", self.written),
+            &format!(
+                "Response computed by {TOOL} {VERSION}, <time>{}</time>.",
+                self.written
+            ),
             &sections,
         )
     }
@@ -56,7 +61,9 @@ fn rows(panel: &PlotPanel) -> impl Iterator<Item = String> {
         let PlotPoints::Path(points, _) = &curve.points else {
             return None;
         };
-        let finite = points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
+        let finite = points
+            .iter()
+            .filter(|(x, y)| x.is_finite() && y.is_finite());
         let &(x, y) = finite.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         let title = [panel.title.as_str(), curve.name.as_str()];
         let title: Vec<&str> = title.into_iter().filter(|text| !text.is_empty()).collect();
@@ -84,7 +91,9 @@ fn name(label: &str) -> &str {
 fn quantity(value: f64, label: &str) -> String {
     let unit = parted(label).1;
     let space = if unit.starts_with("10") { " · " } else { " " };
-    format!("{}{space}{}", shown(value, 5), escaped(unit)).trim_end().to_owned()
+    format!("{}{space}{}", shown(value, 5), escaped(unit))
+        .trim_end()
+        .to_owned()
 }
 
 #[cfg(test)]

@@ -77,5 +77,7 @@ impl<'a> Picture<'a> {
 /// Further files that were written, a line for each.
 pub(super) fn also(files: &[Option<&PathBuf>]) -> String {
     let files = files.iter().flatten();
-    files.map(|path| format!("\nwrote {}", path.display())).collect()
+    files
+        .map(|path| format!("\nwrote {}", path.display()))
+        .collect()
 }

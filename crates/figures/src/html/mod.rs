@@ -2,7 +2,7 @@
 
 mod page;
 
-pub use page::{HOW_TO_READ, figure, page, still};
+pub use page::{figure, page, still};
 
 /// The look of every page.
 pub const STYLE: &str = include_str!("style.css");
@@ -80,9 +80,13 @@ pub fn with_deviation(value: f64, deviation: f64) -> String {
     // Digits after the point: none where the deviation is as large as tens.
     let decimals = (power - last).max(0) as usize;
     let unit = 10_f64.powi(last);
-    let (value, deviation) = ((value / unit).round() * unit, (deviation / unit).round() * unit);
+    let (value, deviation) = (
+        (value / unit).round() * unit,
+        (deviation / unit).round() * unit,
+    );
     let scale = 10_f64.powi(power);
-    let mantissa = format!("{:.decimals$}", value / scale).replace('-', "−");
+    // Adding zero takes the sign of a zero away.
+    let mantissa = format!("{:.decimals$}", value / scale + 0.0).replace('-', "−");
     let bracket = match decimals {
         // Digits on both sides of the point are written with it.
         1.. if deviation / scale >= 1.0 => format!("{:.decimals$}", deviation / scale),
@@ -91,7 +95,10 @@ pub fn with_deviation(value: f64, deviation: f64) -> String {
     };
     match power {
         0 => format!("{mantissa}({bracket})"),
-        _ => format!("{mantissa}({bracket}) × 10<sup>{}</sup>", power.to_string().replace('-', "−")),
+        _ => format!(
+            "{mantissa}({bracket}) × 10<sup>{}</sup>",
+            power.to_string().replace('-', "−")
+        ),
     }
 }
 
@@ -212,6 +219,7 @@ mod tests {
             // 0.0996 is 0.10 to two digits, not 0.100
             (1.234, 0.0996, "1.23(10)"),
             (27_347.0, 6062.0, "27300(6100)"),
+            (-0.3, 100.0, "0(100)"),
             (3.25, 0.0, "3.25"),
             (3.25, f64::INFINITY, "3.25"),
         ] {

@@ -6,14 +6,18 @@ use super::{STYLE, escaped};
 use crate::look::Look;
 use crate::plot::{Drawn, PlotPoints};
 
-/// How a reader uses the figures of a page, in HTML; it is seen where the page's script runs.
-pub const HOW_TO_READ: &str = "<p class=\"script-only faint\">Point at a figure or tap it to read values. Drag across it, along it or over a part \
+/// How a reader uses the figures of a page, before the first of them; it is seen where the page's script runs.
+const HOW_TO_READ: &str = "<p class=\"script-only faint\">Point at a figure or tap it to read values. Drag across it, along it or over a part \
      of it to zoom, or use two fingers; a double click shows the whole range. Names in the key hide their curves. With the keyboard: arrows move \
      the cursor, + and − zoom, 0 shows the whole range.</p>\n";
+
+/// How a figure with a script begins.
+const CHART: &str = "<figure class=\"chart\"";
 
 /// A page around finished sections, with the script that its figures need; `what` is a sentence about the page, in HTML.
 #[must_use]
 pub fn page(title: &str, heading: &str, what: &str, sections: &str) -> String {
+    let sections = sections.replacen(CHART, &format!("{HOW_TO_READ}{CHART}"), 1);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -38,7 +42,7 @@ pub fn figure(id: &str, caption: &str, drawn: &Drawn) -> String {
         false => String::new(),
     };
     format!(
-        "<figure class=\"chart\" id=\"{}\">\n<figcaption>{caption}</figcaption>\n{keys}<div class=\"picture\">\n{}</div>\n\
+        "{CHART} id=\"{}\">\n<figcaption>{caption}</figcaption>\n{keys}<div class=\"picture\">\n{}</div>\n\
          <script type=\"application/json\">{}</script>\n</figure>\n",
         escaped(id),
         embedded(&drawn.svg),
@@ -66,8 +70,14 @@ fn static_key(drawn: &Drawn) -> String {
     let mut entries: Vec<(&str, Look)> = Vec::new();
     for panel in &plot.panels {
         let curves = panel.curves.iter();
-        let levels = panel.level.iter().map(|level| (level.name.as_str(), level.look));
-        for entry in curves.map(|curve| (curve.name.as_str(), curve.look)).chain(levels) {
+        let levels = panel
+            .level
+            .iter()
+            .map(|level| (level.name.as_str(), level.look));
+        for entry in curves
+            .map(|curve| (curve.name.as_str(), curve.look))
+            .chain(levels)
+        {
             if !entries.contains(&entry) {
                 entries.push(entry);
             }

@@ -143,6 +143,5 @@ pub(super) fn frequencies(runs: &[BackbonePrediction]) -> Option<String> {
             ),
         ]
     });
-    drawn("Frequency over amplitude", "frequency, Hz", lines.collect())
-        .map(|drawn| drawn.svg)
+    drawn("Frequency over amplitude", "frequency, Hz", lines.collect()).map(|drawn| drawn.svg)
 }

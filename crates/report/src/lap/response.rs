@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{
-    self, HOW_TO_READ, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
+    self, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
 };
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
@@ -275,7 +275,7 @@ impl LapResponseReport<'_> {
             )
         });
         format!(
-            "<h2>Runs</h2>\n<p>Receptance measured and regenerated at the measured amplitude of each line.</p>\n{HOW_TO_READ}{}",
+            "<h2>Runs</h2>\n<p>Receptance measured and regenerated at the measured amplitude of each line.</p>\n{}",
             runs.collect::<String>()
         )
     }
@@ -286,16 +286,21 @@ fn run_figure(found: &LapResponse, run: &SineRun, id: &str, remark: &str) -> Str
     let mut lines: Vec<_> = run.lines.iter().zip(found.regenerated(run)).collect();
     // A run may have gone down.
     lines.sort_by(|(one, _), (other, _)| one.omega.total_cmp(&other.omega));
-    let measured = |line: &SineLine| {
-        Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad)
-    };
+    let measured =
+        |line: &SineLine| Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
     function::drawn(&Function {
         id,
         name: &run.name,
         unit: "m/N",
         remark,
-        frequency_hz: &lines.iter().map(|(line, _)| line.omega / TAU).collect::<Vec<_>>(),
-        measured: &lines.iter().map(|(line, _)| measured(line)).collect::<Vec<_>>(),
+        frequency_hz: &lines
+            .iter()
+            .map(|(line, _)| line.omega / TAU)
+            .collect::<Vec<_>>(),
+        measured: &lines
+            .iter()
+            .map(|(line, _)| measured(line))
+            .collect::<Vec<_>>(),
         regenerated: &lines.iter().map(|(_, value)| *value).collect::<Vec<_>>(),
     })
 }

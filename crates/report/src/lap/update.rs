@@ -1,7 +1,9 @@
 //! The report of a lap model updated from natural frequencies.
 
 use bolted_joint_export::provenance;
-use bolted_joint_figures::html::{self, beside, cell, columns, escaped, number, number_cell, table};
+use bolted_joint_figures::html::{
+    self, beside, cell, columns, escaped, number, number_cell, table,
+};
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapParameter, LapUpdate, TorqueUpdate};

@@ -9,7 +9,7 @@ use super::figure::figure;
 use super::{Assembly, IdentificationReport, counted};
 use bolted_joint_figures::Axis;
 use bolted_joint_figures::curve::{self, Sample};
-use bolted_joint_figures::html::{HOW_TO_READ, cell, escaped, number_cell, percent, table};
+use bolted_joint_figures::html::{cell, escaped, number_cell, percent, table};
 use bolted_joint_frf::receptance_unit;
 
 /// Functions that are drawn at most.
@@ -25,7 +25,6 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let mut html = "<h2>Frequency response functions</h2>\n<p>Measured, and regenerated with the identified joint. The residual is \
                     |measured − regenerated| / |regenerated|. Dotted uprights mark resonances of the regenerated function.</p>\n"
         .to_owned();
-    html += HOW_TO_READ;
     html += &residuals(&assemblies, several);
     let shares = shares(&assemblies, MOST_FIGURES);
     let all: usize = assemblies.iter().map(|assembly| assembly.fits.len()).sum();

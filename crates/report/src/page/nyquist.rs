@@ -6,8 +6,8 @@ use super::super::legend::{Key, REGENERATED_COLOUR};
 use super::{Assembly, IdentificationReport};
 use bolted_joint_figures::html::{self, escaped, number};
 use bolted_joint_figures::{
-    Axis, Drawn, FONTS, LABELS_BELOW, PathData, Plot, PlotCurve, PlotPanel, PlotPoints, Strip, Svg, VALUE_LABELS,
-    draw_path,
+    Axis, Drawn, FONTS, LABELS_BELOW, PathData, Plot, PlotCurve, PlotPanel, PlotPoints, Strip, Svg,
+    VALUE_LABELS, draw_path,
 };
 use bolted_joint_frf::{receptance_unit, resonances};
 use bolted_joint_joint::superscript;
@@ -160,13 +160,7 @@ fn draw(
         curve(Key::Measured, measured),
         curve(Key::Regenerated, regenerated),
     ];
-    let mut panel = PlotPanel::new(
-        "",
-        SIDE,
-        (name_across, across),
-        (name_up, Some(up)),
-        curves,
-    );
+    let mut panel = PlotPanel::new("", SIDE, (name_across, across), (name_up, Some(up)), curves);
     panel.is_square = true;
     let plot = Plot {
         title: title.to_owned(),

@@ -48,12 +48,7 @@ fn only_joint(report: &IdentificationReport<'_>, joint: &JointEstimate) -> Strin
 }
 
 /// What [`cells`] are.
-pub(super) const HEADINGS: [&str; 4] = [
-    "Estimate",
-    "95 % interval",
-    "Band average",
-    "Unit",
-];
+pub(super) const HEADINGS: [&str; 4] = ["Estimate", "95 % interval", "Band average", "Unit"];
 
 /// One unknown of a joint: estimate with its standard deviation, interval, band average, unit.
 pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> String {

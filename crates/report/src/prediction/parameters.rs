@@ -1,9 +1,11 @@
 //! The joint's numbers with their intervals, over the torque where there is a table, and where the scatter comes from.
 
 use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
-use bolted_joint_figures::html::figure;
 use super::symbol;
-use bolted_joint_figures::html::{beside, cell, escaped, number, number_cell, table, with_deviation};
+use bolted_joint_figures::html::figure;
+use bolted_joint_figures::html::{
+    beside, cell, escaped, number, number_cell, table, with_deviation,
+};
 use bolted_joint_joint::{DofSet, with_symbols};
 use bolted_joint_predict::study::{Prediction, State, Unknown};
 
@@ -24,7 +26,7 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         })
         .collect();
     format!(
-        "<h2>The joint</h2>\n<p>{}</p>\n{}{tables}",
+        "<h2>The joint</h2>\n<p>{}</p>\n{tables}{}",
         motions(found),
         over_torque(found)
     )

@@ -1,7 +1,7 @@
 //! The surfaces: fractal dimension and roughness, and the spectra that they were fitted to.
 
-use bolted_joint_figures::html::figure;
 use crate::spectrum_figure::spectrum;
+use bolted_joint_figures::html::figure;
 use bolted_joint_figures::html::{
     beside, cell, escaped, number, number_cell, shown, table, with_deviation,
 };

@@ -3,7 +3,7 @@
 
 mod functions;
 
-use bolted_joint_figures::html::{HOW_TO_READ, escaped, figure};
+use bolted_joint_figures::html::{escaped, figure};
 use bolted_joint_figures::{LineFigure, ResponseCurve, ResponseFigure, ResponsePanel};
 use bolted_joint_files::Timestamp;
 
@@ -54,9 +54,6 @@ pub fn shown_page(title: &str, files: &[ShownFile<'_>], written: Timestamp) -> S
         let rows: String = rows.collect();
         sections +=
             &format!("<div class=\"scroll\"><table><tbody>\n{rows}</tbody></table></div>\n");
-        if !pictures.is_empty() {
-            sections += HOW_TO_READ;
-        }
         for (place, picture) in pictures.iter().enumerate() {
             sections += &match picture {
                 ShownPicture::Functions(group) => group.charts(&format!("shown-{number}-{place}")),

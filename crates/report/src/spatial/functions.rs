@@ -1,6 +1,6 @@
 //! The strongest functions of the assembly: measured, computed with the joint, and what is left.
 
-use bolted_joint_figures::html::{HOW_TO_READ, escaped, percent};
+use bolted_joint_figures::html::{escaped, percent};
 use bolted_joint_frf::receptance_unit;
 use bolted_joint_spatial::{SpatialIdentification, SpatialStudy};
 
@@ -12,7 +12,7 @@ pub(super) fn section(found: &SpatialIdentification) -> String {
     let mut html = format!(
         "<h2>Frequency response functions</h2>\n<p>Measured, and regenerated with the identified joint: the strongest of {}, two \
          within each substructure and two across the joint each way, as far as they were measured. All were used; their residual \
-         is {} r.m.s.</p>\n{HOW_TO_READ}",
+         is {} r.m.s.</p>\n",
         counted(found.functions, "function"),
         percent(found.relative_rms)
     );

@@ -140,7 +140,10 @@
     const image = new Image();
     image.onload = () => {
       const canvas = html("canvas", { width: 2 * width, height: 2 * height });
-      canvas.getContext("2d").drawImage(image, 0, 0, 2 * width, 2 * height);
+      const paper = canvas.getContext("2d");
+      paper.fillStyle = PAPER;
+      paper.fillRect(0, 0, 2 * width, 2 * height);
+      paper.drawImage(image, 0, 0, 2 * width, 2 * height);
       canvas.toBlob((blob) => save(fileName(figure, ".png"), blob), "image/png");
     };
     image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(svg))}`;

@@ -1,5 +1,7 @@
 //! The JSON Schema of all studies, for editors: one alternative for each method, and one for assemblies.
 
+mod described;
+
 use std::collections::BTreeMap;
 
 use bolted_joint::assembly::AssemblyModel;
@@ -11,6 +13,7 @@ use bolted_joint::predict::study::InterfaceStudy;
 use bolted_joint::respond::RespondStudy;
 use bolted_joint::study::Method;
 use bolted_joint::study::schema::Schema;
+use described::Keys;
 use serde_json::{Map, json};
 
 /// What the schema's file is called beside a study.
@@ -99,20 +102,23 @@ fn sorted(object: Map<String, Schema>) -> Schema {
 }
 
 fn schema() -> Schema {
-    let mut alternatives: Vec<Schema> = Method::ALL.into_iter().map(of_method).collect();
+    let keys = Keys::of_page();
+    let methods = Method::ALL.into_iter();
+    let mut alternatives: Vec<Schema> = methods.map(|method| of_method(method, &keys)).collect();
     let mut assembly = AssemblyModel::schema();
     assembly["title"] = "Assembly".into();
     assembly["required"] = json!(["name", "structures"]);
+    keys.describe(&mut assembly, "Assembly file");
     alternatives.push(assembly);
     json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "Study of bolted-joint",
-        "description": "Keys and types, as the program reads them. What values have to be is in docs/file-formats.md.",
+        "description": "Keys and types, as the program reads them, with the words of docs/file-formats.md.",
         "oneOf": alternatives,
     })
 }
 
-fn of_method(method: Method) -> Schema {
+fn of_method(method: Method, keys: &Keys) -> Schema {
     let mut schema = match method {
         Method::FrfDecoupling => Study::schema(),
         Method::FrfSpace => SpatialStudy::schema(),
@@ -126,6 +132,16 @@ fn of_method(method: Method) -> Schema {
     schema["title"] = format!("Study of method {method}, for bolted-joint {command}").into();
     // the method tells which alternative is meant
     schema["properties"]["method"] = json!({ "const": method.name() });
+    let section = match method {
+        Method::FrfDecoupling => "Study",
+        Method::FrfSpace => "Study of a joint in space",
+        Method::LapUpdate => "Method `lap-update`",
+        Method::LapResponse => "Method `lap-response`",
+        Method::FractalContact | Method::VirtualMaterial => "Study of a prediction",
+        Method::LayeredBeam => "Study of a layered beam",
+        Method::Respond => "Study of a response",
+    };
+    keys.describe(&mut schema, section);
     schema["required"] = json!(["method", "name"]);
     schema
 }
@@ -134,7 +150,45 @@ fn of_method(method: Method) -> Schema {
 mod tests {
     use std::path::Path;
 
+    use super::Schema;
+
     /// `UPDATE_SCHEMA=1 cargo test --workspace --lib study_schema` writes it anew.
+    /// Keys of a schema that have no description, with their paths.
+    fn undescribed(schema: &Schema, path: &str, found: &mut Vec<String>) {
+        match schema {
+            Schema::Object(own) => {
+                for (name, value) in own {
+                    if let ("properties", Schema::Object(keys)) = (name.as_str(), value) {
+                        for (key, value) in keys {
+                            let path = format!("{path}.{key}");
+                            let words = value["description"].as_str().unwrap_or_default();
+                            if words.is_empty() {
+                                found.push(path.clone());
+                            }
+                            undescribed(value, &path, found);
+                        }
+                    } else {
+                        undescribed(value, path, found);
+                    }
+                }
+            }
+            Schema::Array(list) => list
+                .iter()
+                .for_each(|value| undescribed(value, path, found)),
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn every_key_has_a_description() {
+        let mut found = Vec::new();
+        for alternative in super::schema()["oneOf"].as_array().unwrap() {
+            let title = alternative["title"].as_str().unwrap();
+            undescribed(alternative, title, &mut found);
+        }
+        assert!(found.is_empty(), "{} keys: {found:#?}", found.len());
+    }
+
     #[test]
     fn the_study_schema_of_the_documents_is_what_the_tables_read() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/study.schema.json");

@@ -241,3 +241,66 @@ def test_bad_modes_are_refused(run, tmp_path):
         path.write_text(bad, encoding="utf-8")
         done = run("show", path, expect=1)
         assert "bad.unv" in done.stderr and said in done.stderr, done.stderr
+
+
+def analysis_sets(frequency=None, mass=None, damping=None, shapes=None, poles=None, modal_a=None, rotations=False):
+    """Data sets 2414 of modes, normal or with poles; motions along Y of nodes 1 to 3."""
+    sets = []
+    for r in range(3):
+        if poles is None:
+            values = np.zeros((3, 6 if rotations else 3))
+            values[:, 1] = shapes[:, r]
+            record = {"record12_field2": frequency[r], "record12_field3": (2 * np.pi * frequency[r]) ** 2, "record12_field4": mass[r],
+                      "record12_field5": damping[r]}
+        else:
+            values = np.zeros((3, 6))
+            values[:, 2], values[:, 3] = shapes[:, r].real, shapes[:, r].imag
+            record = {"record13_field1": poles[r].real, "record13_field2": poles[r].imag, "record13_field3": modal_a[r].real,
+                      "record13_field4": modal_a[r].imag}
+        sets.append({
+            "type": 2414, "analysis_dataset_label": r + 1, "analysis_dataset_name": "a chain", "dataset_location": 1,
+            "id1": "a chain", "id2": "NONE", "id3": "NONE", "id4": "NONE", "id5": "NONE",
+            "model_type": 1, "analysis_type": 2 if poles is None else 3, "data_characteristic": 3 if rotations else 2, "result_type": 8,
+            "data_type": 2 if poles is None else 5, "number_of_data_values_for_the_data_component": 6 if rotations else 3,
+            "record10_field6": r + 1, **record, "node_nums": np.array([1, 2, 3]), "data_at_node": values.tolist(),
+        })
+    return sets
+
+
+@pytest.mark.parametrize("rotations", [False, True])
+def test_normal_modes_of_analysis_data_are_the_chain(functions, run, tmp_path, rotations):
+    omega_r, shapes = modes()
+    mass = np.array([3.0, 0.2, 40.0])
+    sets = analysis_sets(omega_r / 2 / np.pi, mass, DAMPING_RATIO, shapes * np.sqrt(mass), rotations=rotations)
+    path = written(tmp_path / "chain.unv", [units_set(), *sets])
+    table, _ = functions(path)
+    is_the_chain(table, 5e-4)
+    shown = json.loads(run("show", "--json", path).stdout)[0]
+    assert shown["kind"] == "modes of a structure" and shown["details"]["points"] == ["1:+Y", "2:+Y", "3:+Y"]
+    assert shown["facts"]["scale"] == ["modal masses 0.2 to 40, brought to 1"]
+
+
+def test_complex_modes_of_analysis_data_are_the_chain(functions, tmp_path):
+    omega_r, shapes = modes()
+    damped = omega_r * np.sqrt(1 - DAMPING_RATIO**2)
+    turn = np.array([2 * np.exp(0.7j), 0.1 * np.exp(-2j), 1j])
+    sets = analysis_sets(shapes=shapes * turn, poles=-DAMPING_RATIO * omega_r + 1j * damped, modal_a=2j * damped * turn**2)
+    table, _ = functions(written(tmp_path / "chain.unv", [units_set(), *sets]))
+    is_the_chain(table, 5e-4)
+
+
+@pytest.mark.parametrize(("changed", "said"), [
+    ({"dataset_location": 2, "element_nums": np.array([1]), "data_at_element": [[1.0, 2.0, 3.0]]}, "3 of other data at nodes"),
+    ({"analysis_type": 7}, "complex mode of second order"),
+    ({"result_type": 12}, "velocity or acceleration"),
+    ({"data_characteristic": 4}, "data characteristic 4 with 3 values"),
+    ({"record12_field4": 0.0}, "modal mass 0"),
+])
+def test_bad_analysis_data(run, tmp_path, changed, said):
+    omega_r, shapes = modes()
+    sets = analysis_sets(omega_r / 2 / np.pi, np.ones(3), DAMPING_RATIO, shapes)
+    for one in sets:
+        one.update(changed)
+    path = written(tmp_path / "bad.unv", [units_set(), *sets])
+    done = run("show", path, code=1)
+    assert "bad.unv" in done.stderr and said in done.stderr, done.stderr

@@ -55,17 +55,51 @@ def browser(tmp_path_factory):
     return browser
 
 
+@pytest.fixture(scope="session")
+def pages(program, demo, tmp_path_factory):
+    """A page of each command: identify, predict, update of a lap, respond, and what stands beside the response."""
+    folder = tmp_path_factory.mktemp("pages")
+    runs = {
+        "predict": ["predict", "predict-four-bolts/study.toml", "predict.joint.json"],
+        "update": ["identify", "pirdayr-update/study.toml", "update.joint.json"],
+        "respond": ["respond", "pirdayr/figure-10.toml", "respond.csv"],
+        "loops": ["respond", "friction/loops.toml", "loops.csv"],
+    }
+    for name, (command, study, output) in runs.items():
+        call = [program, command, ROOT / "examples" / study, "-o", folder / output, "--report", folder / f"{name}.html"]
+        done = subprocess.run(call, capture_output=True, text=True, encoding="utf-8", timeout=300)
+        # 3: written, and not to be relied on.
+        assert done.returncode in (0, 3), done.stderr
+    return {"identify": demo / "m10x16-report.html"} | {name: folder / f"{name}.html" for name in runs}
+
+
 @pytest.fixture
 def drive(browser, page, tmp_path):
-    """Runs JavaScript in the report and returns what it returns. `first` and `second` are figures, see `HANDS`."""
+    """Runs JavaScript in a page and returns what it returns, awaited. `first` and `second` are figures, see `HANDS`.
 
-    def drive(script):
+    With a `width` (pixels) the page stands in a frame of that width, as in a telephone; `media` is the one that the page's style
+    takes for its own.
+    """
+
+    def drive(script, page=page, width=None, media=None, options=()):
         text = page.read_text(encoding="utf-8")
+        if media is not None:
+            # A rule for another medium is never met, and one for this is always.
+            for name in ("print", "screen"):
+                text = text.replace(f"@media {name}", f"@media {'all' if name == media else 'not all'}")
         text = text.replace("<body>", "<body><script>window.errors = []; onerror = (m) => errors.push(m);</script>", 1)
-        ending = f"<script>{HANDS} report((() => {{ {script} }})());</script></body>"
+        ending = f"<script>{HANDS} (async () => {{ {script} }})().then(report, (e) => {{ errors.push(String(e)); report(null); }});</script></body>"
         copy = tmp_path / "driven.html"
         copy.write_text(text.replace("</body>", ending, 1), encoding="utf-8")
-        dom = browser(copy, "--dump-dom")
+        opened = copy
+        if width is not None:
+            opened = tmp_path / "frame.html"
+            opened.write_text(f'<body style="margin:0"><iframe src="driven.html" style="border:0;width:{width}px;height:800px"></iframe>')
+        # The browser's own time can run out before it has decoded a picture, which takes real time.
+        for _ in range(5):
+            dom = browser(opened, "--allow-file-access-from-files", "--virtual-time-budget=30000", *options, "--dump-dom")
+            if '<pre id="result">' in dom:
+                break
         result = dom.split('<pre id="result">')[1].split("</pre>")[0]
         result = json.loads(html.unescape(result))
         assert result["errors"] == []
@@ -80,11 +114,12 @@ const report = (value) => {
   const made = document.createElement("pre");
   made.id = "result";
   made.textContent = JSON.stringify({ value, errors });
-  document.body.append(made);
+  // In a frame the result is read from the page around it.
+  (window.top === window ? document : window.top.document).body.append(made);
 };
-const [first, second] = document.querySelectorAll("figure.chart");
-const drawing = (figure) =>
-  [...figure.querySelectorAll(".picture > svg:not(.overlay)")].find((svg) => svg.style.display !== "none");
+const figures = [...document.querySelectorAll("figure.chart")];
+const [first, second] = figures;
+const drawing = (figure) => figure.querySelector(".picture > svg:not(.overlay)");
 // Labels of the frequency axis with their places: the numbers lowest in the picture but for the axis' name.
 const labels = (figure) => {
   const texts = [...drawing(figure).querySelectorAll("text")].map((text) => ({
@@ -98,12 +133,12 @@ const place = (figure, hz) => {
   const [a, b] = [all[0], all[all.length - 1]];
   return a.x + ((hz - a.hz) / (b.hz - a.hz)) * (b.x - a.x);
 };
-const pointer = (figure, kind, hz) => {
-  const overlay = figure.querySelector(".overlay");
-  const box = overlay.getBoundingClientRect();
-  const where = { clientX: place(figure, hz), clientY: box.top + 80, bubbles: true, button: 0, pointerId: 1 };
-  overlay.dispatchEvent(new PointerEvent(kind, where));
+const hand = (figure, kind, clientX, down, more = {}) => {
+  const picture = figure.querySelector(".picture");
+  const clientY = picture.getBoundingClientRect().top + down;
+  picture.dispatchEvent(new PointerEvent(kind, { clientX, clientY, bubbles: true, button: 0, pointerId: 1, ...more }));
 };
+const pointer = (figure, kind, hz) => hand(figure, kind, place(figure, hz), 80);
 const point = (figure, hz) => pointer(figure, "pointermove", hz);
 const drag = (figure, from, to) => {
   // All places are those before the drag: the axis changes at its end.
@@ -111,6 +146,42 @@ const drag = (figure, from, to) => {
   pointer(figure, "pointermove", to);
   pointer(figure, "pointerup", to);
 };
+const middle = (figure) => {
+  const box = figure.querySelector(".picture").getBoundingClientRect();
+  return box.left + 0.3 * box.width;
+};
+const tap = (figure) => {
+  for (const kind of ["pointerdown", "pointerup", "pointerleave"]) {
+    hand(figure, kind, middle(figure), 80, { pointerType: "touch" });
+  }
+};
 const press = (figure, key) => figure.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
-const readings = (figure) => [...figure.querySelectorAll(".keys b")].map((reading) => reading.textContent);
+const at = (figure) => figure.querySelector(".keys .at").textContent;
+// Readings by the names in the key: one for each panel.
+const readings = (figure) => Object.fromEntries([...figure.querySelectorAll(".keys tbody tr")].map((row) =>
+  [row.querySelector("th").textContent.trim(), [...row.querySelectorAll("td")].map((cell) => cell.textContent)]));
+const isRead = (figure) => Object.values(readings(figure)).some((cells) => cells.some((text) => /\\d/.test(text)));
+const button = (figure, name) => [...figure.querySelectorAll("button")].find((each) => each.textContent.trim() === name);
+// What a click saves: names and contents of files.
+const saved = async (figure, name) => {
+  const made = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
+  const file = await new Promise((resolve) => {
+    let blob = null;
+    URL.createObjectURL = (given) => made.call(URL, (blob = given));
+    HTMLAnchorElement.prototype.click = function () { resolve({ name: this.download, blob }); };
+    button(figure, name).click();
+  });
+  [URL.createObjectURL, HTMLAnchorElement.prototype.click] = [made, click];
+  return file;
+};
+const luminance = (colour) => {
+  const parts = colour.match(/[\\d.]+/g).slice(0, 3).map((part) => part / 255)
+    .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+};
+// By WCAG 2.2: 1 for the same colour, 21 for black on white.
+const contrast = (one, other) => {
+  const [a, b] = [luminance(one), luminance(other)].sort((x, y) => y - x);
+  return (a + 0.05) / (b + 0.05);
+};
 """

@@ -1,8 +1,12 @@
-"""The report as its reader uses it: cursor, zoom and print in a headless browser."""
+"""The report as its reader uses it: cursor, zoom, key, saving and print in a headless browser."""
 
+import base64
 import cmath
+import csv
+import io
 import math
 import re
+import struct
 
 import pytest
 
@@ -32,35 +36,41 @@ def measured(demo):
 
 @pytest.mark.parametrize("hz", [20.0, 114.5, 342.75, 500.25])
 def test_the_cursor_shows_what_was_measured(drive, demo, hz):
-    shown = drive(f"point(first, {hz}); return [first.querySelector('figcaption b').textContent, ...readings(first)];")
-    name, at, magnitude, regenerated, phase, regenerated_phase, residual = shown
+    name, at, read, heads = drive(
+        f"point(first, {hz});"
+        "const heads = [...first.querySelectorAll('.keys thead th')].slice(1).map((head) => head.textContent);"
+        "return [first.querySelector('figcaption b').textContent, at(first), readings(first), heads];"
+    )
+    assert heads == ["magnitude, m/N", "phase, °", "residual, %"]
     pair = tuple(int(end.split(":")[0]) for end in name.split(" / "))
-    assert number(at) == pytest.approx(hz, abs=0.26) and at.endswith(" Hz")
-    value = measured(demo)[pair][number(at)]
-    assert magnitude.endswith(" m/N") and phase.endswith(" °") and residual.endswith(" %")
-    assert number(magnitude) == pytest.approx(abs(value), rel=6e-4)
+    at = float(re.fullmatch(r"frequency ([\d.]+) Hz", at)[1])
+    assert at == pytest.approx(hz, abs=0.26)
+    value = measured(demo)[pair][at]
+    magnitude, phase, nothing = read["measured"]
+    assert nothing == "" and number(magnitude) == pytest.approx(abs(value), rel=6e-4)
     turn = (number(phase) - math.degrees(cmath.phase(value)) + 180) % 360 - 180
     assert abs(turn) < 0.06
-    model = cmath.rect(number(regenerated), math.radians(number(regenerated_phase)))
-    assert number(residual) == pytest.approx(100 * abs(value - model) / abs(model), abs=0.25)
+    model = cmath.rect(number(read["regenerated"][0]), math.radians(number(read["regenerated"][1])))
+    residual = number(read["residual"][2])
+    assert residual == pytest.approx(100 * abs(value - model) / abs(model), abs=0.25)
 
 
 def test_keys_move_the_cursor_by_lines(drive):
     at = drive(
-        "point(first, 100); const at = [readings(first)[0]];"
-        "for (const key of ['ArrowRight', 'ArrowRight', 'ArrowLeft']) { press(first, key); at.push(readings(first)[0]); }"
-        "return at;"
+        "point(first, 100); const found = [at(first)];"
+        "for (const key of ['ArrowRight', 'ArrowRight', 'ArrowLeft']) { press(first, key); found.push(at(first)); }"
+        "return found;"
     )
-    lines = [number(text) for text in at]
+    lines = [number(text.removeprefix("frequency ")) for text in at]
     assert [round((line - lines[0]) / 0.25) for line in lines] == [0, 1, 2, 1]
 
 
 def test_dragging_zooms_and_a_double_click_ends_it(drive):
     whole, zoomed, at, again = drive(
         "const whole = labels(first); drag(first, 100, 130); const zoomed = labels(first);"
-        "point(first, 120); const at = readings(first);"
-        "first.querySelector('.overlay').dispatchEvent(new MouseEvent('dblclick', { bubbles: true }));"
-        "return [whole, zoomed, at, labels(first)];"
+        "point(first, 120); const read = at(first);"
+        "first.querySelector('.picture').dispatchEvent(new MouseEvent('dblclick', { bubbles: true }));"
+        "return [whole, zoomed, read, labels(first)];"
     )
     assert whole[0]["hz"] <= 50 and whole[-1]["hz"] >= 450
     assert 100 <= zoomed[0]["hz"] <= 105 and 125 <= zoomed[-1]["hz"] <= 130
@@ -68,7 +78,7 @@ def test_dragging_zooms_and_a_double_click_ends_it(drive):
     slope = (zoomed[-1]["x"] - zoomed[0]["x"]) / (zoomed[-1]["hz"] - zoomed[0]["hz"])
     before = (whole[-1]["x"] - whole[0]["x"]) / (whole[-1]["hz"] - whole[0]["hz"])
     assert slope / before == pytest.approx(512 / 30, rel=0.02)
-    assert number(at[0]) == pytest.approx(120, abs=0.13)
+    assert number(at.removeprefix("frequency ")) == pytest.approx(120, abs=0.13)
     assert again == whole
 
 
@@ -99,14 +109,223 @@ def test_figures_zoom_together_on_request(drive):
     assert whole == ["", ""]
 
 
-def test_every_figure_answers(drive):
-    count, without = drive(
-        "const all = [...document.querySelectorAll('figure.chart')];"
-        "all.forEach((figure) => { point(figure, 200); drag(figure, 150, 250); point(figure, 200); });"
-        "const silent = all.filter((figure) => readings(figure).some((text) => text === '') || !figure.dataset.range);"
-        "return [all.length, silent.map((figure) => figure.id)];"
+PAGES = ["identify", "predict", "update", "respond", "loops"]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_every_figure_answers_a_tap_and_zooms_both_ways(drive, pages, name):
+    """A tap with a finger reads values that stay; a drag zooms along, one upright zooms up."""
+    count, silent = drive(
+        "const silent = [];"
+        "for (const figure of figures) {"
+        "  tap(figure); const read = isRead(figure);"
+        "  const [x, to] = [middle(figure), middle(figure) + 60];"
+        "  hand(figure, 'pointerdown', x, 70); hand(figure, 'pointermove', to, 71); hand(figure, 'pointerup', to, 71);"
+        "  const along = figure.dataset.range && !figure.dataset.up; button(figure, 'whole range').click();"
+        "  hand(figure, 'pointerdown', x, 60); hand(figure, 'pointermove', x, 110); hand(figure, 'pointerup', x, 110);"
+        "  const up = figure.dataset.up && !figure.dataset.range; button(figure, 'whole range').click();"
+        "  if (!read || !along || !up || figure.dataset.up) silent.push([figure.id, read, along, up]);"
+        "}"
+        "return [figures.length, silent];",
+        page=pages[name],
     )
-    assert count >= 15 and without == []
+    assert count >= 1 and silent == []
+
+
+def test_a_box_zooms_both_axes_to_its_corners(drive):
+    ends, place = drive(
+        "const texts = () => [...drawing(first).querySelectorAll('text')];"
+        "const heights = texts().filter((text) => /^10[⁻⁰¹²³⁴-⁹]+$/.test(text.textContent)).map((text) => {"
+        "  const box = text.getBoundingClientRect(); return [text.textContent, (box.top + box.bottom) / 2]; });"
+        "const [[, high], [, low]] = [heights[1], heights[3]].sort((a, b) => a[1] - b[1]);"
+        "const top = first.querySelector('.picture').getBoundingClientRect().top;"
+        "const [x, to] = [place(first, 200), place(first, 300)];"
+        "hand(first, 'pointerdown', x, high - top); hand(first, 'pointermove', to, low - top);"
+        "hand(first, 'pointerup', to, low - top);"
+        "return [[first.dataset.range, first.dataset.up], [heights[1][0], heights[3][0]]];"
+    )
+    along, up = [[float(end) for end in text.split()] for text in ends]
+    assert along == pytest.approx([200, 300], rel=0.01)
+    powers = sorted(number("1 × " + text) for text in place)
+    # A label's middle is within two pixels of its line, and a decade is some forty pixels high.
+    assert [math.log10(end / power) for end, power in zip(up, powers)] == pytest.approx([0, 0], abs=0.06)
+
+
+def test_two_fingers_zoom_about_what_lies_below_them(drive):
+    ends = drive(
+        "const [x, to] = [place(first, 200), place(first, 300)];"
+        "hand(first, 'pointerdown', x, 80, { pointerId: 1 }); hand(first, 'pointerdown', to, 84, { pointerId: 2 });"
+        "hand(first, 'pointermove', place(first, 150), 80, { pointerId: 1 });"
+        "const ends = labels(first); return [place(first, 200) - place(first, 300), x - to, ends];"
+    )
+    shown, before, _ = ends
+    # From 100 Hz between the fingers to as much over 1.5 times the room.
+    assert shown / before == pytest.approx(1.5, rel=0.02)
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_the_key_is_one_and_hides_curves(drive, pages, name):
+    keys, wrong = drive(
+        "const wrong = [], keys = [];"
+        "const strokes = (figure, colour) => drawing(figure).querySelectorAll(`g[clip-path] [stroke='${colour}']`).length;"
+        "for (const figure of figures) {"
+        "  const names = [...figure.querySelectorAll('.keys tbody th')].map((cell) => cell.innerHTML);"
+        "  keys.push([figure.querySelectorAll('.keys').length, names.length, new Set(names).size]);"
+        "  const entry = figure.querySelector('.keys tbody button');"
+        "  const colour = entry.querySelector('path').getAttribute('stroke');"
+        "  const before = strokes(figure, colour); entry.click(); const hidden = strokes(figure, colour); entry.click();"
+        "  if (!(hidden < before && strokes(figure, colour) === before)) wrong.push([figure.id, before, hidden]);"
+        "}"
+        "return [keys, wrong];",
+        page=pages[name],
+    )
+    assert wrong == []
+    assert all(tables == 1 and names == different >= 1 for tables, names, different in keys)
+
+
+def test_what_is_saved_as_a_table_is_what_was_measured(drive, demo):
+    name, text = drive("const file = await saved(first, 'CSV'); return [file.name, await file.blob.text()];")
+    assert name.endswith(".csv")
+    rows = list(csv.DictReader(io.StringIO(text)))
+    exact = measured(demo)[11, 11]
+    assert len(rows) == len([hz for hz in exact if 5 <= hz <= 512])
+    for row in rows[::97]:
+        value = exact[float(row["frequency, Hz"])]
+        assert float(row["magnitude, m/N: measured"]) == pytest.approx(abs(value), rel=1e-6)
+        turn = (float(row["phase, °: measured"]) - math.degrees(cmath.phase(value)) + 180) % 360 - 180
+        assert abs(turn) < 1e-4
+
+
+def test_a_saved_response_is_the_table_beside_it(drive, pages):
+    _, text = drive("const file = await saved(first, 'CSV'); return [file.name, await file.blob.text()];", page=pages["respond"])
+    rows = list(csv.DictReader(io.StringIO(text)))
+    with (pages["respond"].parent / "respond.csv").open(encoding="utf-8") as file:
+        table = [row for row in csv.DictReader(file) if row["lap"] == "Ex.02, 4 N·m" and float(row["level [N]"]) == 10]
+    title = "Ex.02, 4 N·m: "
+    saved = [row for row in rows if row[f"{title}frequency, Hz: 10 N"]]
+    assert len(saved) == len(table) > 100
+    for mine, exact in zip(saved, table):
+        assert float(mine[f"{title}frequency, Hz: 10 N"]) == pytest.approx(float(exact["frequency [Hz]"]), rel=1e-6)
+        assert float(mine[f"{title}b.y amplitude, m: 10 N"]) == pytest.approx(float(exact["b.y amplitude [m]"]), rel=1e-6)
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_every_picture_can_be_saved(drive, pages, name):
+    """Of a still picture too: a PNG twice as large as the picture, white at its corner also on a dark page."""
+    files = drive(
+        "const files = [], toBlob = HTMLCanvasElement.prototype.toBlob; let corner = null;"
+        "HTMLCanvasElement.prototype.toBlob = function (...all) {"
+        "  corner = [...this.getContext('2d').getImageData(3, 3, 1, 1).data]; toBlob.apply(this, all); };"
+        "for (const figure of [...figures.slice(0, 3), ...document.querySelectorAll('figure.still')]) {"
+        "  const file = await saved(figure, 'PNG');"
+        "  const bytes = new Uint8Array(await file.blob.arrayBuffer());"
+        "  files.push([file.name, btoa(String.fromCharCode(...bytes.slice(0, 24))), corner]);"
+        "}"
+        "return files;",
+        page=pages[name],
+        options=["--blink-settings=preferredColorScheme=0"],
+    )
+    assert files
+    for name, head, corner in files:
+        head = base64.b64decode(head)
+        assert name.endswith(".png") and head.startswith(b"\x89PNG\r\n\x1a\n")
+        width, height = struct.unpack(">II", head[16:24])
+        assert width >= 800 and height >= 300
+        assert corner == [255, 255, 255, 255]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_telephone_shows_all_of_it(drive, pages, name):
+    """390 pixels wide: nothing beyond the edge but tables that scroll, texts that can be read, labels of tables narrow."""
+    width, beyond, smallest, labels, fingers = drive(
+        "const width = document.documentElement.scrollWidth;"
+        "const beyond = [...document.querySelectorAll('main *')].filter((each) => !each.closest('.scroll, svg'))"
+        "  .filter((each) => each.getBoundingClientRect().right > innerWidth + 1).map((each) => each.tagName);"
+        "const texts = figures.flatMap((figure) => [...drawing(figure).querySelectorAll('text')]);"
+        "const scale = (text) => text.ownerSVGElement.getBoundingClientRect().width / text.ownerSVGElement.viewBox.baseVal.width;"
+        "const smallest = Math.min(...texts.map((text) => Number(text.getAttribute('font-size')) * scale(text)));"
+        "const labels = [...document.querySelectorAll('main table:not(.keys) th[scope=row]')]"
+        "  .filter((cell) => getComputedStyle(cell).display === 'table-cell').map((cell) => cell.getBoundingClientRect().width);"
+        "tap(first);"
+        "return [width, beyond, smallest, Math.max(0, ...labels), isRead(first)];",
+        page=pages[name],
+        width=390,
+    )
+    assert width <= 390 and beyond == []
+    assert smallest >= 11
+    assert labels <= 0.45 * 390
+    assert fingers
+
+
+@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize("is_dark", [False, True])
+def test_figures_have_the_page_s_colours(drive, pages, name, is_dark):
+    """The paper is the page's, and curves and texts stand out from it (WCAG 2.2, 1.4.11 and 1.4.3)."""
+    found, page, faint = drive(
+        "const page = getComputedStyle(document.body).backgroundColor;"
+        "const found = figures.map((figure) => getComputedStyle(drawing(figure).querySelector('rect')).fill);"
+        "const faint = [];"
+        "for (const figure of figures) {"
+        "  for (const path of drawing(figure).querySelectorAll('g[clip-path] path:not([stroke-dasharray])')) {"
+        "    const own = contrast(getComputedStyle(path).stroke, page); if (own < 2.2) faint.push([path.getAttribute('stroke'), own]); }"
+        "  for (const text of drawing(figure).querySelectorAll('text')) {"
+        "    const own = contrast(getComputedStyle(text).fill, page); if (own < 4.5) faint.push([text.textContent, own]); }"
+        "}"
+        "return [found, page, faint];",
+        page=pages[name],
+        options=["--blink-settings=preferredColorScheme=0"] if is_dark else [],
+    )
+    assert set(found) == {page} and page == ("rgb(21, 26, 33)" if is_dark else "rgb(255, 255, 255)")
+    assert faint == []
+
+
+@pytest.mark.parametrize("is_dark", [False, True])
+def test_measured_dots_stay_visible(drive, is_dark):
+    """They stand out from the paper, and are wider than the line over them."""
+    contrast, widths = drive(
+        "const page = getComputedStyle(document.body).backgroundColor;"
+        "const paths = [...drawing(first).querySelectorAll('g[clip-path] path')];"
+        "const dots = paths.find((path) => path.getAttribute('d').includes('h0'));"
+        "const line = paths.find((path) => path.getAttribute('d').includes('L'));"
+        "return [contrast(getComputedStyle(dots).stroke, page), [dots, line].map((path) => Number(path.getAttribute('stroke-width')))];",
+        options=["--blink-settings=preferredColorScheme=0"] if is_dark else [],
+    )
+    assert contrast >= 3 and widths[0] >= 2 * widths[1]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_dragging_selects_no_text_and_estimates_come_first(drive, pages, name):
+    select, order = drive(
+        "const select = figures.map((figure) => getComputedStyle(drawing(figure).querySelector('text')).userSelect);"
+        "const place = (query) => [...document.querySelectorAll('main *')].indexOf(document.querySelector(query));"
+        "return [select, [place('main table:not(.keys)'), place('figure.chart')]];",
+        page=pages[name],
+    )
+    assert set(select) == {"none"}
+    assert 0 <= order[0] < order[1]
+
+
+@pytest.mark.parametrize("name", ["identify", "respond"])
+def test_functions_have_a_phase(drive, pages, name):
+    phases = drive(
+        "return [...drawing(first).querySelectorAll('text')].filter((text) => text.textContent === 'phase, °').length;", page=pages[name]
+    )
+    assert phases >= 1
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_paper_clips_no_table(drive, pages, name):
+    """A4 less margins of 14 mm, at 96 pixels an inch."""
+    room = (210 - 28) / 25.4 * 96
+    clipped = drive(
+        "const room = document.documentElement.clientWidth;"
+        "return [...document.querySelectorAll('main table, main svg')].filter((each) => each.getBoundingClientRect().right > room + 1)"
+        "  .map((each) => [each.tagName, each.textContent.slice(0, 60)]);",
+        page=pages[name],
+        width=int(room),
+        media="print",
+    )
+    assert clipped == []
 
 
 def test_it_prints(browser, page, tmp_path):

@@ -2,6 +2,8 @@
 
 use super::axis::Axis;
 use super::curve;
+use super::look::Look;
+use super::plot::{Drawn, Plot, PlotCurve, PlotPanel, PlotPoints};
 use super::strip::{FONTS, LABELS_BELOW, Strip, VALUE_LABELS};
 use super::svg::{Lettering, Manner, PathData, Point, Svg};
 use super::text;
@@ -15,6 +17,8 @@ const LEGEND: f64 = 30.0;
 const FONT: f64 = 12.5;
 const SAMPLE_WIDTH: f64 = 26.0;
 const BETWEEN_ENTRIES: f64 = 24.0;
+/// Width of a curve.
+const STROKE: f64 = 1.8;
 /// Radius of a point.
 const MARK: f64 = 2.6;
 /// Beyond the ends of a roomy axis, as a part of what is between them.
@@ -40,6 +44,8 @@ pub enum Scale {
     Roomy,
     /// By decades.
     Logarithmic,
+    /// An angle over one turn, degrees.
+    Phase,
 }
 
 /// How the points of a line are shown.
@@ -107,17 +113,61 @@ pub struct LineFigure<'a> {
 }
 
 impl LineFigure<'_> {
+    /// The picture, and the same for a page's script; `None` if there is nothing that can be drawn.
+    pub fn drawn(&self) -> Option<Drawn> {
+        let svg = self.to_svg()?;
+        let [across, up] = self.axes()?;
+        let curves = self
+            .lines
+            .iter()
+            .zip(LOOKS)
+            .map(|(line, (colour, dashes))| {
+                let look = match (line.shape, dashes) {
+                    (Shape::Marks, _) => Look::dots(colour, 2.0 * MARK),
+                    (Shape::Curve, Some(dashes)) => Look::dashed(colour, STROKE, dashes),
+                    (Shape::Curve, None) => Look::line(colour, STROKE),
+                };
+                PlotCurve {
+                    name: line.name.clone(),
+                    look,
+                    points: PlotPoints::Path(line.points.clone(), Vec::new()),
+                }
+            });
+        let panel = PlotPanel::new(
+            "",
+            STRIP_HEIGHT,
+            (self.across.0, across),
+            (self.up.0, Some(up)),
+            curves.collect(),
+        );
+        let plot = Plot {
+            title: self.title.to_owned(),
+            columns: 1,
+            lines: Vec::new(),
+            panels: vec![panel],
+        };
+        Some(Drawn { svg, plot })
+    }
+
+    fn axes(&self) -> Option<[Axis; 2]> {
+        let points = || self.lines.iter().flat_map(|line| &line.points);
+        Some([
+            axis(self.across.1, points().map(|point| point.0))?,
+            axis(self.up.1, points().map(|point| point.1))?,
+        ])
+    }
+
     /// The figure as an SVG document; `None` if there is nothing that can be drawn.
     pub fn to_svg(&self) -> Option<String> {
-        let points = || self.lines.iter().flat_map(|line| &line.points);
+        let [across, up] = self.axes()?;
         let strip = Strip {
             // Half a pixel off, thin lines are sharp.
             left: MARGIN + VALUE_LABELS + 0.5,
             top: LEGEND + 0.5,
             width: WIDTH - MARGIN - RIGHT - VALUE_LABELS,
             height: STRIP_HEIGHT,
-            frequency: axis(self.across.1, points().map(|point| point.0))?,
-            value: Some(axis(self.up.1, points().map(|point| point.1))?),
+            frequency: across,
+            value: Some(up),
         };
         let height = LEGEND + STRIP_HEIGHT + LABELS_BELOW;
         let mut svg = Svg::new(WIDTH, height, self.title);
@@ -185,6 +235,7 @@ pub(crate) fn axis(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Ax
             Some(Axis::linear(ends.into_iter()))
         }
         Scale::Logarithmic => Axis::logarithmic(values, DECADES),
+        Scale::Phase => Some(Axis::Phase),
     }
 }
 
@@ -206,7 +257,7 @@ fn draw(path: &PathData, (colour, dashes): (&str, Option<&str>), svg: &mut Svg) 
         .word("d", path.as_str())
         .word("fill", "none")
         .word("stroke", colour)
-        .number("stroke-width", 1.8)
+        .number("stroke-width", STROKE)
         .word("stroke-linejoin", "round");
     match dashes {
         Some(dashes) => element.word("stroke-dasharray", dashes),

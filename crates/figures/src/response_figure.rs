@@ -4,12 +4,15 @@ use super::axis::Axis;
 use super::curve;
 use super::line_figure::{Scale, axis};
 use super::look::Look;
+use super::plot::{Drawn, Plot, PlotCurve, PlotPanel, PlotPoints};
 use super::strip::{FAINT_TEXT, FONTS, Strip, VALUE_LABELS};
 use super::svg::{Lettering, Manner, PathData, Point, Svg};
 use super::text;
 
 const WIDTH: f64 = 820.0;
 const PANEL_HEIGHT: f64 = 250.0;
+/// Of a panel with a phase.
+const PHASE_HEIGHT: f64 = 120.0;
 const MARGIN: f64 = 14.0;
 /// Room for the half of the last label that goes beyond the panel.
 const RIGHT: f64 = 26.0;
@@ -65,6 +68,29 @@ pub struct ResponseCurve {
 }
 
 impl ResponseFigure<'_> {
+    /// The picture, and the same for a page's script; `None` if there is nothing that can be drawn.
+    pub fn drawn(&self) -> Option<Drawn> {
+        let svg = self.to_svg()?;
+        let mut panels: Vec<PlotPanel> = Vec::new();
+        for panel in &self.panels {
+            let Some(mut plot) = panel.plot() else {
+                continue;
+            };
+            plot.is_below = panel.up.1 == Scale::Phase
+                && panels
+                    .last()
+                    .is_some_and(|above| above.across == plot.across);
+            panels.push(plot);
+        }
+        let plot = Plot {
+            title: self.title.to_owned(),
+            columns: 1,
+            lines: Vec::new(),
+            panels,
+        };
+        Some(Drawn { svg, plot })
+    }
+
     /// The figure as an SVG document; `None` if there is nothing that can be drawn.
     pub fn to_svg(&self) -> Option<String> {
         let room = WIDTH - MARGIN - RIGHT - VALUE_LABELS;
@@ -88,11 +114,11 @@ impl ResponseFigure<'_> {
                 left: MARGIN + VALUE_LABELS + 0.5,
                 top: top + 0.5,
                 width: room,
-                height: PANEL_HEIGHT,
+                height: panel.height(),
                 frequency,
                 value,
             };
-            top += PANEL_HEIGHT + LABELS_BELOW;
+            top += panel.height() + LABELS_BELOW;
             laid_out.push((panel, strip, entries, begin, power));
         }
         if laid_out.is_empty() {
@@ -140,6 +166,36 @@ fn colour(curve: usize) -> &'static str {
 }
 
 impl ResponsePanel {
+    fn height(&self) -> f64 {
+        match self.up.1 {
+            Scale::Phase => PHASE_HEIGHT,
+            Scale::Linear | Scale::Roomy | Scale::Logarithmic => PANEL_HEIGHT,
+        }
+    }
+
+    fn plot(&self) -> Option<PlotPanel> {
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let across = axis(self.across.1, points().map(|point| point.0))?;
+        let power = self.power();
+        let factor = 10_f64.powi(-power);
+        let up = axis(self.up.1, points().map(|point| factor * point.1));
+        let curves = self.curves.iter().enumerate().map(|(n, curve)| {
+            let points = curve.points.iter().map(|&(x, y)| (x, factor * y));
+            PlotCurve {
+                name: curve.name.clone(),
+                look: Look::line(colour(n), STROKE),
+                points: PlotPoints::Path(points.collect(), curve.is_dashed.clone()),
+            }
+        });
+        Some(PlotPanel::new(
+            self.title.clone(),
+            self.height(),
+            (self.across.0.clone(), across),
+            (with_power(&self.up.0, power), up),
+            curves.collect(),
+        ))
+    }
+
     fn entries(&self, room: f64) -> Vec<Entry<'_>> {
         let (mut left, mut line) = (0.0, 0);
         let mut entries = Vec::new();
@@ -164,7 +220,7 @@ impl ResponsePanel {
 
     /// Power of ten, a multiple of three, that is taken out of a linear ordinate so that its labels are short.
     fn power(&self) -> i32 {
-        if self.up.1 == Scale::Logarithmic {
+        if matches!(self.up.1, Scale::Logarithmic | Scale::Phase) {
             return 0;
         }
         let values = self.curves.iter().flat_map(|curve| &curve.points);
@@ -211,8 +267,14 @@ impl ResponsePanel {
             for (look, piece) in drawn.pieces(colour(n)) {
                 let mut path = PathData::default();
                 let factor = 10_f64.powi(-power);
-                let points = piece.iter().map(|&(x, y)| strip.place((x, factor * y)));
-                curve::line_within(points, strip.height, 0.1, &mut path);
+                let pieces = match self.up.1 {
+                    Scale::Phase => curve::unwrapped_pieces(piece),
+                    Scale::Linear | Scale::Roomy | Scale::Logarithmic => vec![piece.to_vec()],
+                };
+                for piece in pieces {
+                    let points = piece.iter().map(|&(x, y)| strip.place((x, factor * y)));
+                    curve::line_within(points, strip.height, 0.1, &mut path);
+                }
                 look.draw(&path, svg);
             }
         }

@@ -1,61 +1,56 @@
 //! What the page's script needs of a chart to draw any part of it again: geometry, axes and the values themselves.
 
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
-use serde_json::{Value, json};
-
 use super::chart::{Chart, ChartStrip, Curve, Level};
-use super::frf_figure::MAGNITUDE_DECADES;
-use bolted_joint_figures::Axis;
+use bolted_joint_figures::{Axis, Drawn, Plot, PlotCurve, PlotLevel, PlotPanel, PlotPoints};
 use bolted_joint_frf::resonances;
 
 /// Lines of a chart that go into the page at most, about; of longer ones, the extremes of each stretch do.
 const MOST_LINES: usize = 4096;
 
 impl Chart<'_> {
-    /// The data as text for a `script` element.
-    pub(super) fn data(&self) -> String {
-        let (places, height) = self.laid_out();
+    /// The picture, and the same for the page's script.
+    pub(super) fn drawn(&self) -> Drawn {
         let kept = self.kept_lines(MOST_LINES);
-        let pick = |values: &[f64]| -> String {
-            base64_of_floats(kept.iter().filter_map(|&line| values.get(line).copied()))
+        let pick = |values: &[f64]| -> Vec<f64> {
+            let values = kept.iter().map(|&line| values.get(line).copied());
+            values.map(|value| value.unwrap_or(f64::NAN)).collect()
         };
-        let strips: Vec<Value> = self
-            .strips
-            .iter()
-            .zip(&places)
-            .map(|(strip, place)| {
-                json!({
-                    "name": strip.name,
-                    "unit": strip.unit,
-                    "top": place.top,
-                    "height": place.height,
-                    "axis": strip.axis.map(axis),
-                    "bands": strip.bands,
-                    "level": strip.level.map(level),
-                    "curves": strip.curves.iter().map(|drawn| curve(drawn, &pick)).collect::<Vec<_>>(),
-                })
-            })
-            .collect();
         let mut marks = self
             .resonating
             .map(|function| resonances(self.frequency_hz, function))
             .unwrap_or_default();
         marks.sort_by(|a, b| b.prominence_decades.total_cmp(&a.prominence_decades));
         let marks: Vec<f64> = marks.iter().map(|mark| mark.frequency_hz).collect();
-        let frequency = places.first().map(|place| axis(place.frequency));
-        let chart = json!({
-            "left": places.first().map(|place| place.left),
-            "width": places.first().map(|place| place.width),
-            "height": height,
-            "frequency": frequency,
-            "decades": MAGNITUDE_DECADES,
-            "lines": pick(self.frequency_hz),
-            "marks": marks,
-            "strips": strips,
+        let frequency = Axis::linear(self.frequency_hz.iter().copied());
+        let panels = self.strips.iter().enumerate().map(|(number, strip)| {
+            let curves = strip.curves.iter().map(|drawn| PlotCurve {
+                name: drawn.name.clone(),
+                look: drawn.look,
+                points: PlotPoints::Lines(pick(&drawn.values)),
+            });
+            let mut panel = PlotPanel::new(
+                "",
+                strip.height,
+                ("frequency, Hz", frequency),
+                (strip.label(), strip.axis),
+                curves.collect(),
+            );
+            panel.is_below = number > 0;
+            panel.bands.clone_from(&strip.bands);
+            panel.level = strip.level.map(level);
+            panel.marks.clone_from(&marks);
+            panel
         });
-        // "</script>" in a name would end the element.
-        chart.to_string().replace('<', "\\u003c")
+        let plot = Plot {
+            title: self.title.clone(),
+            columns: 1,
+            lines: pick(self.frequency_hz),
+            panels: panels.collect(),
+        };
+        Drawn {
+            svg: self.to_svg(),
+            plot,
+        }
     }
 
     /// How many lines the script gets, where those are not all.
@@ -91,42 +86,13 @@ impl Chart<'_> {
     }
 }
 
-fn axis(axis: Axis) -> Value {
-    let scale = match axis {
-        Axis::Linear { .. } | Axis::Counted { .. } => "linear",
-        Axis::Logarithmic { .. } => "logarithmic",
-        Axis::Phase => "phase",
-    };
-    let (low, high) = axis.ends();
-    json!({ "scale": scale, "low": low, "high": high })
-}
-
-fn level(level: Level) -> Value {
-    let [low, high] = level.interval;
-    json!({ "value": level.value, "low": low, "high": high, "colour": Level::LOOK.colour })
-}
-
-fn curve(curve: &Curve, pick: &impl Fn(&[f64]) -> String) -> Value {
-    json!({
-        "name": curve.name,
-        "colour": curve.look.colour,
-        "width": curve.look.width,
-        "dashes": curve.look.dashes,
-        "dots": curve.look.is_dots,
-        "values": pick(&curve.values),
-    })
-}
-
-/// Numbers in single precision, little-endian, in Base64 (RFC 4648).
-fn base64_of_floats(values: impl Iterator<Item = f64>) -> String {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "seven digits are more than a cursor shows"
-    )]
-    let bytes: Vec<u8> = values
-        .flat_map(|value| (value as f32).to_le_bytes())
-        .collect();
-    BASE64_STANDARD.encode(bytes)
+fn level(level: Level) -> PlotLevel {
+    PlotLevel {
+        name: "estimate".to_owned(),
+        look: Level::LOOK,
+        value: level.value,
+        interval: level.interval,
+    }
 }
 
 /// The power of a thousand by which `size` is between 1 and 1000, and how it is written before a unit; one for sizes that

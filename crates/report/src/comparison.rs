@@ -1,10 +1,10 @@
 //! Joints beside each other: each number with its interval of 95 %, a column for each joint.
 
 use bolted_joint_compare::{Comparison, Measured, Row};
-use bolted_joint_figures::COLOURS;
 use bolted_joint_figures::html::{
-    beside, cell, escaped, number, number_cell, percent, spread, table,
+    beside, cell, escaped, figure, number, number_cell, percent, spread, table,
 };
+use bolted_joint_figures::{COLOURS, Drawn};
 use bolted_joint_files::Timestamp;
 use bolted_joint_joint::with_symbols;
 
@@ -16,6 +16,10 @@ const HALF: f64 = 1.959_963_984_540_054;
 /// The numbers with their intervals as an SVG document, a panel each; joints are numbered from 1.
 #[must_use]
 pub fn comparison_figure(comparison: &Comparison) -> String {
+    drawn(comparison).svg
+}
+
+fn drawn(comparison: &Comparison) -> Drawn {
     let panel = |(place, row): (usize, &Row)| Panel {
         name: with_symbols(&row.name),
         unit: row.unit.clone(),
@@ -43,7 +47,7 @@ pub fn comparison_figure(comparison: &Comparison) -> String {
         is_counted: true,
         panels: comparison.rows.iter().enumerate().map(panel).collect(),
     }
-    .to_svg()
+    .drawn()
 }
 
 /// The comparison as a page.
@@ -81,14 +85,16 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
         .iter()
         .map(|note| format!("<p>{}</p>\n", escaped(note)))
         .collect();
-    let svg = comparison_figure(comparison).replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
     let sections = format!(
         "<h2>Joints</h2>\n<ol>\n{items}</ol>\n<h2>Numbers</h2>\n{}\
          <p>± one standard deviation. Differences are parts of the first value and, in brackets, standard deviations of the \
-         difference of independent estimates.</p>\n{together}{notes}<h2>Intervals</h2>\n<figure class=\"still\">\n\
-         <figcaption>Values with intervals of 95 %, where the files give deviations.</figcaption>\n\
-         <div class=\"picture\">\n{svg}</div>\n</figure>\n",
+         difference of independent estimates.</p>\n{together}{notes}<h2>Intervals</h2>\n{}",
         table(&headings, &rows),
+        figure(
+            "intervals",
+            "Values with intervals of 95 %, where the files give deviations.",
+            &drawn(comparison)
+        ),
     );
     crate::page::page(
         "Joints beside each other",

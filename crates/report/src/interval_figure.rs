@@ -2,7 +2,8 @@
 
 use super::chart_data::scaled_unit;
 use bolted_joint_figures::{
-    Axis, FONTS, LABELS_BELOW, Lettering, Look, Manner, PathData, Point, Strip, Svg, VALUE_LABELS,
+    Axis, Drawn, FONTS, LABELS_BELOW, Lettering, Look, Manner, PathData, Plot, PlotCurve,
+    PlotPanel, PlotPoints, Point, Strip, Svg, VALUE_LABELS,
 };
 
 const WIDTH: f64 = 960.0;
@@ -51,6 +52,50 @@ pub(super) struct IntervalFigure<'a> {
 }
 
 impl IntervalFigure<'_> {
+    /// The picture, and the same for a page's script.
+    pub(super) fn drawn(&self) -> Drawn {
+        let across = self.across_axis();
+        let panels = self.panels.iter().map(|panel| {
+            let (factor, unit, up) = panel.scaled();
+            let values = panel.values.iter().filter_map(|own| {
+                let (value, ends) = own.value?;
+                Some((own.at, value / factor, ends.map(|end| end / factor)))
+            });
+            let curve = PlotCurve {
+                name: panel.name.clone(),
+                look: Look::dots(panel.colour, DOT),
+                points: PlotPoints::Intervals(values.collect(), !self.is_counted),
+            };
+            PlotPanel::new(
+                panel.name.clone(),
+                STRIP_HEIGHT,
+                (self.across, across),
+                (unit, Some(up)),
+                vec![curve],
+            )
+        });
+        let plot = Plot {
+            title: self.title.to_owned(),
+            columns: COLUMNS,
+            lines: Vec::new(),
+            panels: panels.collect(),
+        };
+        Drawn {
+            svg: self.to_svg(),
+            plot,
+        }
+    }
+
+    fn across_axis(&self) -> Axis {
+        let places = self.panels.iter().flat_map(|panel| &panel.values);
+        match self.is_counted {
+            true => Axis::Counted {
+                count: places.map(|value| value.at as u32).max().unwrap_or(0),
+            },
+            false => roomy(places.map(|value| value.at)),
+        }
+    }
+
     pub(super) fn to_svg(&self) -> String {
         let rows = self.panels.len().div_ceil(COLUMNS);
         let row_height = TITLE + STRIP_HEIGHT + LABELS_BELOW;
@@ -58,21 +103,10 @@ impl IntervalFigure<'_> {
         let column_width = (WIDTH - MARGIN) / COLUMNS as f64;
         let mut svg = Svg::new(WIDTH, height, self.title);
         svg.paper(WIDTH, height, Some(6.0), FONTS);
-        let places = self.panels.iter().flat_map(|panel| &panel.values);
-        let across = match self.is_counted {
-            true => Axis::Counted {
-                count: places.map(|value| value.at as u32).max().unwrap_or(0),
-            },
-            false => roomy(places.map(|value| value.at)),
-        };
+        let across = self.across_axis();
         for (number, panel) in self.panels.iter().enumerate() {
             let (row, column) = (number / COLUMNS, number % COLUMNS);
-            let values = panel.values.iter().filter_map(|value| value.value);
-            let ends = values.flat_map(|(value, [low, high])| [value, low, high]);
-            let largest = ends
-                .clone()
-                .fold(0.0, |most, end| f64::max(most, end.abs()));
-            let (factor, unit) = scaled_unit(largest, &panel.unit);
+            let (factor, unit, up) = panel.scaled();
             let strip = Strip {
                 // Half a pixel off, thin lines are sharp.
                 left: MARGIN + column as f64 * column_width + VALUE_LABELS + 0.5,
@@ -80,7 +114,7 @@ impl IntervalFigure<'_> {
                 width: column_width - VALUE_LABELS - MARGIN,
                 height: STRIP_HEIGHT,
                 frequency: across,
-                value: Some(roomy(ends.map(|end| end / factor))),
+                value: Some(up),
             };
             svg.text(
                 (strip.left, strip.top - 8.0),
@@ -96,6 +130,17 @@ impl IntervalFigure<'_> {
 }
 
 impl Panel {
+    /// By what its values are divided, the unit that follows, and the axis.
+    fn scaled(&self) -> (f64, String, Axis) {
+        let values = self.values.iter().filter_map(|value| value.value);
+        let ends = values.flat_map(|(value, [low, high])| [value, low, high]);
+        let largest = ends
+            .clone()
+            .fold(0.0, |most, end| f64::max(most, end.abs()));
+        let (factor, unit) = scaled_unit(largest, &self.unit);
+        (factor, unit, roomy(ends.map(|end| end / factor)))
+    }
+
     fn draw(&self, strip: &Strip, factor: f64, is_joined: bool, svg: &mut Svg) {
         let [mut join, mut whiskers, mut dots] = [(); 3].map(|()| PathData::default());
         let mut before: Option<Point> = None;

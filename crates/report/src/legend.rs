@@ -5,8 +5,9 @@ use bolted_joint_figures::{Lettering, Look, Manner, PathData, Point, Svg, text};
 // Blue and vermilion from the palette of Okabe and Ito, which the colour-blind can tell apart.
 pub(super) const REGENERATED_COLOUR: &str = "#0072b2";
 const UNCOUPLED_COLOUR: &str = "#d55e00";
-const MEASURED_COLOUR: &str = "#b4bac1";
-const RESIDUAL_COLOUR: &str = "#8c959f";
+// Three times as dark as white paper at least, so that dots stay visible below a line (WCAG 2.2, 1.4.11).
+const MEASURED_COLOUR: &str = "#858d96";
+const RESIDUAL_COLOUR: &str = "#858d96";
 
 const FONT: f64 = 12.5;
 const SAMPLE_WIDTH: f64 = 26.0;

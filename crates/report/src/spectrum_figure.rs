@@ -7,6 +7,11 @@ use bolted_joint_predict::surface::ProfileFit;
 /// can be drawn.
 #[must_use]
 pub fn spectrum_figure(fit: &ProfileFit) -> Option<String> {
+    spectrum(fit).to_svg()
+}
+
+/// The same, to be drawn in several ways.
+pub(crate) fn spectrum(fit: &ProfileFit) -> LineFigure<'static> {
     let spectrum = &fit.spectrum;
     let points = spectrum.frequency_per_m.iter().copied();
     let points = points.zip(spectrum.density_m3.iter().copied()).skip(1);
@@ -31,5 +36,4 @@ pub fn spectrum_figure(fit: &ProfileFit) -> Option<String> {
             Line::marks("means over bands", means),
         ],
     }
-    .to_svg()
 }

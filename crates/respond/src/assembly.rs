@@ -5,7 +5,7 @@ use bolted_joint_assembly::{
     AssemblyError, AssemblyMode, AssemblyModel, Channel, ForcedPoint, FreePoint, Response,
 };
 use bolted_joint_dynamics::DofKind;
-use bolted_joint_figures::{ResponseCurve, ResponseFigure, ResponsePanel, Scale};
+use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
 use super::table::{Column, Role, csv};
 
@@ -220,10 +220,28 @@ impl AssemblyAnswer {
         csv(&self.columns, &self.rows)
     }
 
-    /// As a picture (SVG); `None` if there is nothing that can be drawn.
+    /// As a picture, and the same for a page; `None` if there is nothing that can be drawn.
     #[must_use]
-    pub fn figure(&self, title: &str) -> Option<String> {
+    pub fn figure(&self, title: &str) -> Option<Drawn> {
         let across = self.columns.first()?;
+        let phase = |panel: &Panel| ResponsePanel {
+            title: String::new(),
+            across: (format!("{}, {}", across.name, across.unit), Scale::Linear),
+            up: ("phase, °".to_owned(), Scale::Phase),
+            curves: panel
+                .curves
+                .iter()
+                .map(|(name, place)| ResponseCurve {
+                    name: name.clone(),
+                    points: self
+                        .rows
+                        .iter()
+                        .map(|row| (row[0], row[place + 1].atan2(row[*place]).to_degrees()))
+                        .collect(),
+                    is_dashed: Vec::new(),
+                })
+                .collect(),
+        };
         let panel = |panel: &Panel| ResponsePanel {
             title: String::new(),
             across: (format!("{}, {}", across.name, across.unit), Scale::Linear),
@@ -258,9 +276,16 @@ impl AssemblyAnswer {
         ResponseFigure {
             title,
             note: None,
-            panels: self.panels.iter().map(panel).collect(),
+            panels: self
+                .panels
+                .iter()
+                .flat_map(|each| {
+                    let below = each.is_complex.then(|| phase(each));
+                    std::iter::once(panel(each)).chain(below)
+                })
+                .collect(),
         }
-        .to_svg()
+        .drawn()
     }
 }
 

@@ -83,7 +83,12 @@ pub(super) fn curve_columns(
             (false, _) => Role::Aside,
         };
         columns.push(column(format!("{name} amplitude"), unit, role));
-        columns.push(column(format!("{name} phase"), "°", Role::Aside));
+        let phase = if is_over_frequency {
+            Role::Phase
+        } else {
+            Role::Aside
+        };
+        columns.push(column(format!("{name} phase"), "°", phase));
         columns.push(column(format!("{name} third harmonic"), unit, Role::Aside));
         columns.push(column(
             format!("{name} peak displacement"),

@@ -185,7 +185,7 @@ impl RespondStudy {
                 // The amplitude is held: the load is what there is to see.
                 let mut columns = curve(true);
                 for column in &mut columns {
-                    if column.role == Role::Up {
+                    if matches!(column.role, Role::Up | Role::Phase) {
                         column.role = Role::Aside;
                     }
                 }
@@ -205,7 +205,7 @@ impl RespondStudy {
                 for &observed in motions {
                     let (name, unit) = (name(observed), unit(observed, self.quantity));
                     columns.push(column(format!("{name} amplitude"), unit, Role::Up));
-                    columns.push(column(format!("{name} phase"), "°", Role::Aside));
+                    columns.push(column(format!("{name} phase"), "°", Role::Phase));
                 }
                 (columns, load_unit(*load))
             }

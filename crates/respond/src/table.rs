@@ -9,6 +9,8 @@ pub enum Role {
     Across,
     /// Drawn upwards.
     Up,
+    /// An angle in degrees, drawn below the amplitude before it.
+    Phase,
     /// 1 where a motion persists, 0 where it does not.
     Stable,
     /// Written alone.

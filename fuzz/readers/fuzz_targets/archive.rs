@@ -3,7 +3,7 @@
 
 use std::io::Cursor;
 
-use bolted_joint::frf::{ReadOptions, read_npz_from};
+use bolted_joint_frf::{ReadOptions, read_npz_from};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -5,10 +5,10 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use bolted_joint::assembly::AssemblyModel;
-use bolted_joint::study::StudyText;
+use bolted_joint_assembly::AssemblyModel;
 use bolted_joint_dynamics::Beyond;
 use bolted_joint_dynamics::assembly::{AssemblySteps, TOLERANCE};
+use bolted_joint_study::StudyText;
 use libfuzzer_sys::fuzz_target;
 
 static FOLDER: OnceLock<PathBuf> = OnceLock::new();
@@ -26,8 +26,13 @@ fn prepare() {
     FOLDER.get_or_init(|| {
         let folder = std::env::temp_dir().join(format!("bolted-joint-fuzz-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("the folder can be made");
-        for (name, text) in [("cubic", CUBIC), ("sliding", SLIDING), ("loosening", LOOSENING)] {
-            std::fs::write(folder.join(format!("{name}.joint.json")), text).expect("the file can be written");
+        for (name, text) in [
+            ("cubic", CUBIC),
+            ("sliding", SLIDING),
+            ("loosening", LOOSENING),
+        ] {
+            std::fs::write(folder.join(format!("{name}.joint.json")), text)
+                .expect("the file can be written");
         }
         folder
     });

@@ -1,7 +1,7 @@
 //! Text of a joint file (JSON): refused with a reason, or read.
 #![no_main]
 
-use bolted_joint::joint::JointFile;
+use bolted_joint_joint::JointFile;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

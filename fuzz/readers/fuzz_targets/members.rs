@@ -5,7 +5,7 @@
 
 use std::io::{Cursor, Write as _};
 
-use bolted_joint::frf::{ReadOptions, read_npz_from};
+use bolted_joint_frf::{ReadOptions, read_npz_from};
 use libfuzzer_sys::fuzz_target;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use bolted_joint::structure::ModalModel;
+use bolted_joint_frf::structure::ModalModel;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use bolted_joint::identify::Study;
-use bolted_joint::structure::ModalModel;
+use bolted_joint_frf::structure::ModalModel;
+use bolted_joint_identify::Study;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

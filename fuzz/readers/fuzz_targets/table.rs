@@ -1,7 +1,7 @@
 //! A table (CSV): refused with a reason, or a set of functions.
 #![no_main]
 
-use bolted_joint::frf::{ReadOptions, read_csv_from};
+use bolted_joint_frf::{ReadOptions, read_csv_from};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

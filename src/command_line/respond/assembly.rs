@@ -12,7 +12,7 @@ use super::super::error::CliError;
 use super::super::output::{check_output, has_extension, note, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
-use super::picture::Picture;
+use super::picture::{Picture, also};
 
 /// Modes that are told; the table has all.
 const MODES_TOLD: usize = 12;
@@ -46,7 +46,9 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
     let progress = Progress::of_share("responding");
     let answer = AssemblyAnswer::of(&model, response, &|share| progress.reached(share))?;
     drop(progress);
-    let drawing = Picture::drawn(picture, &model.name, || answer.figure(&model.name))?;
+    let drawing = Picture::drawn(picture, &model.name, text.text(), &model.warnings, || {
+        answer.figure(&model.name)
+    })?;
     write_file(output, answer.to_csv().as_bytes())?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
@@ -69,7 +71,11 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
         });
         print(&serde_json::to_string_pretty(&value)?)?;
     } else {
-        print(&format!("{}wrote {output}", told(&model, &answer)))?;
+        print(&format!(
+            "{}wrote {output}{}",
+            told(&model, &answer),
+            also(&[arguments.report.as_ref()])
+        ))?;
     }
     judged(&model)
 }

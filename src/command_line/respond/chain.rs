@@ -9,10 +9,11 @@ use bolted_joint::frf::write_uff58;
 use bolted_joint::identify::space::{Answer, Answers, ChainStudy};
 use bolted_joint::respond::{to_csv, with_noise};
 use bolted_joint::study::StudyText;
-use bolted_joint_figures::{ResponseCurve, ResponseFigure, ResponsePanel, Scale};
+use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, SVG, check_outputs, print, warn, write_file};
+use super::super::output::{ANY, CSV, check_outputs, print, warn, write_file};
+use super::picture::{Picture, also};
 use super::{Format, RespondArguments, RespondNoise, format, output, pollution};
 
 /// 97.5 % quantile of the normal distribution.
@@ -33,7 +34,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         &arguments.study,
         &[
             ("--output", Some(output), ANY),
-            ("--report", arguments.report.as_ref(), SVG),
+            ("--report", arguments.report.as_ref(), ANY),
             ("--deviations", arguments.deviations.as_ref(), CSV),
         ],
     )?;
@@ -41,7 +42,9 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
         None => None,
     };
-    let study = ChainStudy::of(study, arguments.step)?;
+    let picture = Picture::asked(arguments)?;
+    let text = study;
+    let study = ChainStudy::of(text, arguments.step)?;
     let answers = study.answers()?;
     let exact = answers.set()?;
     let measured = match noise {
@@ -56,6 +59,9 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
             answers.without_deviations.join(", ")
         )]);
     }
+    let drawing = Picture::drawn(picture, &study.name, text.text(), &[], || {
+        figure(&study.name, &answers)
+    })?;
     match format {
         Format::Table => write_file(output, to_csv(&measured).as_bytes())?,
         Format::Universal => {
@@ -63,11 +69,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
             write_uff58(&measured, output, &description)?;
         }
     }
-    if let Some(path) = &arguments.report {
-        let Some(drawing) = figure(&study.name, &answers) else {
-            let expected = "functions that can be drawn: all are zero";
-            return Err(CliError::option("--report", path.display(), expected));
-        };
+    if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
     }
     if let Some(path) = &arguments.deviations {
@@ -107,16 +109,17 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         }))?);
     }
     print(&format!(
-        "{}: {} functions of {} lines\nwrote {}",
+        "{}: {} functions of {} lines\nwrote {}{}",
         study.name,
         answers.functions.len(),
         answers.frequency_hz.len(),
-        output.display()
+        output.display(),
+        also(&[arguments.report.as_ref(), arguments.deviations.as_ref()])
     ))
 }
 
 /// Magnitudes with bands of 95 %.
-fn figure(name: &str, answers: &Answers) -> Option<String> {
+fn figure(name: &str, answers: &Answers) -> Option<Drawn> {
     let panel = |one: &Answer| {
         let magnitudes = answers.frequency_hz.iter().zip(&one.values);
         let points: Vec<(f64, f64)> = magnitudes.map(|(&hz, value)| (hz, value.norm())).collect();
@@ -159,7 +162,7 @@ fn figure(name: &str, answers: &Answers) -> Option<String> {
             .map(panel)
             .collect(),
     }
-    .to_svg()
+    .drawn()
 }
 
 /// Standard deviations of the magnitudes.

@@ -11,7 +11,7 @@ use super::super::error::CliError;
 use super::super::output::{check_output, has_extension, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
-use super::picture::Picture;
+use super::picture::{Picture, also};
 
 pub(super) fn run(
     arguments: &RespondArguments,
@@ -36,17 +36,20 @@ pub(super) fn run(
     }
     check_output(output, &[&arguments.study])?;
     let picture = Picture::asked(arguments)?;
-    let study = RespondStudy::of(study)?;
+    let text = study;
+    let study = RespondStudy::of(text)?;
     let progress = Progress::of_share("responding");
     let table = study.run(&|share| progress.reached(share))?;
     drop(progress);
-    let drawing = Picture::drawn(picture, &study.name, || study.figure(&table))?;
+    let warnings = study.warnings(&table);
+    let drawing = Picture::drawn(picture, &study.name, text.text(), &warnings, || {
+        study.figure(&table)
+    })?;
     write_file(output, table.to_csv().as_bytes())?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
     }
     let rows: usize = table.series.iter().map(|series| series.rows.len()).sum();
-    let warnings = study.warnings(&table);
     warn(&warnings);
     if arguments.json {
         let value = json!({
@@ -59,10 +62,11 @@ pub(super) fn run(
         return judged(&study);
     }
     print(&format!(
-        "{}: {} series, {rows} rows\nwrote {}",
+        "{}: {} series, {rows} rows\nwrote {}{}",
         study.name,
         table.series.len(),
-        output.display()
+        output.display(),
+        also(&[arguments.report.as_ref()])
     ))?;
     judged(&study)
 }

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use bolted_joint_figures::html;
+use bolted_joint::respond::ResponsePage;
+use bolted_joint_figures::Drawn;
+use bolted_joint_files::Timestamp;
 
 use super::super::error::CliError;
 use super::super::output::{check_output, has_extension};
@@ -46,29 +48,36 @@ impl<'a> Picture<'a> {
     pub(super) fn drawn(
         picture: Option<Self>,
         name: &str,
-        figure: impl FnOnce() -> Option<String>,
+        study: &str,
+        warnings: &[String],
+        figure: impl FnOnce() -> Option<Drawn>,
     ) -> Result<Option<(&'a PathBuf, String)>, CliError> {
         let Some(Self { path, kind }) = picture else {
             return Ok(None);
         };
-        let Some(svg) = figure() else {
+        let Some(drawn) = figure() else {
             let expected = "a response that can be drawn: all amplitudes are zero";
             return Err(CliError::option("--report", path.display(), expected));
         };
-        Ok(Some((path, text(kind, name, svg))))
+        let text = match kind {
+            Kind::Svg => drawn.svg,
+            Kind::Html => ResponsePage {
+                name,
+                warnings,
+                drawn: &drawn,
+                study,
+                written: Timestamp::from_environment()?,
+            }
+            .to_html(),
+        };
+        Ok(Some((path, text)))
     }
 }
 
-fn text(kind: Kind, name: &str, svg: String) -> String {
-    match kind {
-        Kind::Svg => svg,
-        Kind::Html => {
-            let name = html::escaped(name);
-            format!(
-                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>\n{}</style>\n\
-                 </head>\n<body>\n<main>\n{svg}</main>\n</body>\n</html>\n",
-                html::STYLE
-            )
-        }
-    }
+/// Further files that were written, a line for each.
+pub(super) fn also(files: &[Option<&PathBuf>]) -> String {
+    let files = files.iter().flatten();
+    files
+        .map(|path| format!("\nwrote {}", path.display()))
+        .collect()
 }

@@ -1,5 +1,9 @@
 //! Pieces of HTML that every page of this program is made of: escaped text, numbers, tables, one look.
 
+mod page;
+
+pub use page::{figure, page, still};
+
 /// The look of every page.
 pub const STYLE: &str = include_str!("style.css");
 
@@ -52,6 +56,49 @@ pub fn beside(value: f64, deviation: f64) -> String {
     match digits.is_finite() {
         true => written(value, digits.clamp(2.0, 12.0) as usize, false),
         false => number(value),
+    }
+}
+
+/// A number with its standard deviation in brackets, in units of the last digit: `6.223(96) × 10⁹`. Two digits of the deviation
+/// are shown, and they say how many of the number are; by the rule of the GUM (JCGM 100:2008, 7.2.2).
+pub fn with_deviation(value: f64, deviation: f64) -> String {
+    if !(value.is_finite() && deviation.is_finite() && deviation > 0.0) {
+        return number(value);
+    }
+    let decade = |size: f64| size.abs().log10().floor() as i32;
+    // Rounded to two digits, a deviation can be one decade larger.
+    let rounded = |size: f64| format!("{size:.1e}").parse::<f64>().unwrap_or(size);
+    let last = decade(rounded(deviation)) - 1;
+    let largest = match value {
+        0.0 => decade(deviation),
+        _ => decade(value).max(decade(deviation)),
+    };
+    let power = match largest {
+        -3..=5 => 0,
+        power => power,
+    };
+    // Digits after the point: none where the deviation is as large as tens.
+    let decimals = (power - last).max(0) as usize;
+    let unit = 10_f64.powi(last);
+    let (value, deviation) = (
+        (value / unit).round() * unit,
+        (deviation / unit).round() * unit,
+    );
+    let scale = 10_f64.powi(power);
+    // Adding zero takes the sign of a zero away.
+    let mantissa = format!("{:.decimals$}", value / scale + 0.0).replace('-', "−");
+    let bracket = match decimals {
+        // Digits on both sides of the point are written with it.
+        1.. if deviation / scale >= 1.0 => format!("{:.decimals$}", deviation / scale),
+        1.. => format!("{:.0}", deviation / unit),
+        0 => format!("{:.0}", deviation / scale),
+    };
+    match power {
+        0 => format!("{mantissa}({bracket})"),
+        _ => format!(
+            "{mantissa}({bracket}) × 10<sup>{}</sup>",
+            power.to_string().replace('-', "−")
+        ),
     }
 }
 
@@ -155,6 +202,28 @@ mod tests {
             (3.25, f64::INFINITY, "3.25"),
         ] {
             assert_eq!(beside(value, deviation), expected);
+        }
+    }
+
+    #[test]
+    fn digits_follow_the_deviation() {
+        for (value, deviation, expected) in [
+            (6.2234e9, 9.6e7, "6.223(96) × 10<sup>9</sup>"),
+            (572_878.2, 270.4, "572880(270)"),
+            (1290.048, 0.131, "1290.05(13)"),
+            (-0.8333, 0.004_41, "−0.8333(44)"),
+            (10.784, 0.149, "10.78(15)"),
+            (5817.8, 7.02, "5817.8(7.0)"),
+            (0.0, 6.5e6, "0.0(6.5) × 10<sup>6</sup>"),
+            (-1.5e5, 6.5e6, "−0.2(6.5) × 10<sup>6</sup>"),
+            // 0.0996 is 0.10 to two digits, not 0.100
+            (1.234, 0.0996, "1.23(10)"),
+            (27_347.0, 6062.0, "27300(6100)"),
+            (-0.3, 100.0, "0(100)"),
+            (3.25, 0.0, "3.25"),
+            (3.25, f64::INFINITY, "3.25"),
+        ] {
+            assert_eq!(with_deviation(value, deviation), expected);
         }
     }
 

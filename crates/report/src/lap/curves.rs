@@ -1,7 +1,7 @@
 //! Backbones and free decays beside the model: frequency and damping over the amplitude, and how long a decay takes.
 
-use bolted_joint_figures::html::{cell, columns, escaped, number_cell, shown, table};
-use bolted_joint_figures::{Line, LineFigure, Scale};
+use bolted_joint_figures::html::{self, cell, columns, escaped, number_cell, shown, table};
+use bolted_joint_figures::{Drawn, Line, LineFigure, Scale};
 use bolted_joint_lap::{BackbonePrediction, Expected, LapResponse};
 
 /// Curves of a picture of several runs at most, each with the model's.
@@ -54,12 +54,12 @@ pub(super) fn section(found: &LapResponse) -> String {
             ("damping ratio", damping(run)),
         ];
         let both = both.into_iter().enumerate();
-        both.filter_map(|(kind, (what, svg))| {
+        both.filter_map(|(kind, (what, drawn))| {
             let caption = format!("<b>{}</b>: {what} over the amplitude.", escaped(&run.run));
-            Some(super::figure(
+            Some(html::figure(
                 &format!("curve-{place}-{kind}"),
                 &caption,
-                &svg?,
+                &drawn?,
             ))
         })
         .collect::<String>()
@@ -79,7 +79,7 @@ pub(super) fn section(found: &LapResponse) -> String {
 }
 
 /// Frequencies of one run.
-fn frequency(run: &BackbonePrediction) -> Option<String> {
+fn frequency(run: &BackbonePrediction) -> Option<Drawn> {
     let points = run.points.iter();
     let points = points.map(|point| (point.amplitude_m, point.frequency_hz));
     drawn(
@@ -90,7 +90,7 @@ fn frequency(run: &BackbonePrediction) -> Option<String> {
 }
 
 /// Damping ratios of one run.
-fn damping(run: &BackbonePrediction) -> Option<String> {
+fn damping(run: &BackbonePrediction) -> Option<Drawn> {
     let points = run.points.iter();
     let points = points.filter_map(|point| Some((point.amplitude_m, point.damping_ratio?)));
     drawn(
@@ -125,14 +125,14 @@ fn sorted(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     points
 }
 
-fn drawn(title: &str, ordinate: &str, lines: Vec<Line>) -> Option<String> {
+fn drawn(title: &str, ordinate: &str, lines: Vec<Line>) -> Option<Drawn> {
     LineFigure {
         title,
         across: ("relative displacement, µm", Scale::Logarithmic),
         up: (ordinate, Scale::Linear),
         lines,
     }
-    .to_svg()
+    .drawn()
 }
 
 /// Frequencies of the first runs, for a picture of its own.
@@ -150,5 +150,5 @@ pub(super) fn frequencies(runs: &[BackbonePrediction]) -> Option<String> {
             ),
         ]
     });
-    drawn("Frequency over amplitude", "frequency, Hz", lines.collect())
+    drawn("Frequency over amplitude", "frequency, Hz", lines.collect()).map(|drawn| drawn.svg)
 }

@@ -4,11 +4,14 @@ use std::f64::consts::TAU;
 
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{
-    beside, cell, columns, escaped, number_cell, shown, spread, table,
+    self, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
 };
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
-use bolted_joint_lap::{LapResponse, LapResponseStudy, NoiseIs, SineRun, Use};
+use bolted_joint_lap::{LapResponse, LapResponseStudy, NoiseIs, SineLine, SineRun, Use};
+use num_complex::Complex64;
+
+use crate::page::functions::{self as function, Function};
 
 /// Points of a computed curve.
 const POINTS: usize = 400;
@@ -43,9 +46,9 @@ impl LapResponseReport<'_> {
             ),
         ]
         .concat();
-        super::page(
+        crate::page::page(
             &self.found.name,
-            "Lap model identified from responses at several levels",
+            "lap model identified from responses at several levels",
             self.written,
             &sections,
         )
@@ -57,8 +60,7 @@ impl LapResponseReport<'_> {
             let [low, high] = estimate.interval_95;
             let values = match estimate.is_identified {
                 true => [
-                    number_cell(&beside(estimate.value, deviation)),
-                    number_cell(&spread(deviation)),
+                    number_cell(&with_deviation(estimate.value, deviation)),
                     number_cell(&format!(
                         "{} … {}",
                         beside(low, deviation),
@@ -66,7 +68,7 @@ impl LapResponseReport<'_> {
                     )),
                 ]
                 .concat(),
-                false => "<td colspan=\"3\">not identified</td>".to_owned(),
+                false => "<td colspan=\"2\">not identified</td>".to_owned(),
             };
             let free = match &self.found.free {
                 Some(_) => number_cell(&beside(estimate.free_value, deviation)),
@@ -79,7 +81,7 @@ impl LapResponseReport<'_> {
             )
         });
         let rows: Vec<String> = rows.collect();
-        let mut header = vec!["", "Estimate", "Std. dev.", "95 % interval", "Unit"];
+        let mut header = vec!["", "Estimate (std. dev.)", "95 % interval", "Unit"];
         let free = self.found.free.as_ref().map_or_else(String::new, |free| {
             header.push("Free estimate");
             format!(
@@ -195,7 +197,7 @@ impl LapResponseReport<'_> {
                 (stiffness / (0.5 * values.mass)).sqrt() / TAU,
             )
         });
-        let svg = LineFigure {
+        let drawn = LineFigure {
             title: "Frequency of resonance over amplitude",
             across: ("relative displacement, µm", Scale::Linear),
             up: ("frequency, Hz", Scale::Linear),
@@ -204,11 +206,11 @@ impl LapResponseReport<'_> {
                 Line::marks("measured (−90°)", measured),
             ],
         }
-        .to_svg()?;
-        Some(super::figure(
+        .drawn()?;
+        Some(html::figure(
             "backbone",
             "<b>Backbone</b>: the frequency of resonance over the amplitude of the relative displacement.",
-            &svg,
+            &drawn,
         ))
     }
 
@@ -265,11 +267,11 @@ impl LapResponseReport<'_> {
                     )
                 },
             );
-            let svg = run_figure(self.found, run).unwrap_or_default();
-            super::figure(
+            run_figure(
+                self.found,
+                run,
                 &format!("run-{place}"),
-                &format!("<b>{}</b>: {remark}.", escaped(&run.name)),
-                &svg,
+                &format!(": {remark}."),
             )
         });
         format!(
@@ -279,29 +281,28 @@ impl LapResponseReport<'_> {
     }
 }
 
-/// |H| of one run, measured and regenerated.
-fn run_figure(found: &LapResponse, run: &SineRun) -> Option<String> {
-    let regenerated = found.regenerated(run);
-    let lines = || {
-        run.lines
+/// The receptance of one run over frequency, measured and regenerated.
+fn run_figure(found: &LapResponse, run: &SineRun, id: &str, remark: &str) -> String {
+    let mut lines: Vec<_> = run.lines.iter().zip(found.regenerated(run)).collect();
+    // A run may have gone down.
+    lines.sort_by(|(one, _), (other, _)| one.omega.total_cmp(&other.omega));
+    let measured =
+        |line: &SineLine| Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
+    function::drawn(&Function {
+        id,
+        name: &run.name,
+        unit: "m/N",
+        remark,
+        frequency_hz: &lines
             .iter()
-            .map(|line| line.omega / TAU)
-            .zip(&run.lines)
-    };
-    let measured = lines().map(|(hz, line)| (hz, line.displacement_m / line.force_n));
-    let model = lines()
-        .zip(&regenerated)
-        .map(|((hz, _), value)| (hz, value.norm()));
-    LineFigure {
-        title: "Receptance measured and regenerated",
-        across: ("frequency, Hz", Scale::Linear),
-        up: ("receptance, m/N", Scale::Logarithmic),
-        lines: vec![
-            Line::marks("measured", measured),
-            Line::curve("regenerated", model),
-        ],
-    }
-    .to_svg()
+            .map(|(line, _)| line.omega / TAU)
+            .collect::<Vec<_>>(),
+        measured: &lines
+            .iter()
+            .map(|(line, _)| measured(line))
+            .collect::<Vec<_>>(),
+        regenerated: &lines.iter().map(|(_, value)| *value).collect::<Vec<_>>(),
+    })
 }
 
 /// Receptances regenerated of up to four runs, of the lowest to the highest level; without such runs frequencies over the

@@ -1,7 +1,9 @@
 //! The report of a lap model updated from natural frequencies.
 
 use bolted_joint_export::provenance;
-use bolted_joint_figures::html::{beside, cell, columns, escaped, number, number_cell, table};
+use bolted_joint_figures::html::{
+    self, beside, cell, columns, escaped, number, number_cell, table,
+};
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
 use bolted_joint_lap::{LapParameter, LapUpdate, TorqueUpdate};
@@ -24,16 +26,16 @@ impl LapUpdateReport<'_> {
         let found = self.found;
         let sections = [
             super::warnings(self.warnings),
-            self.determined(),
             self.parameters(),
+            self.determined(),
             self.frequencies(),
             self.search(),
             format!("<h2>Provenance</h2>\n{}", provenance(&found.provenance)),
         ]
         .concat();
-        super::page(
+        crate::page::page(
             &found.name,
-            "Lap model updated from natural frequencies",
+            "lap model updated from natural frequencies",
             self.written,
             &sections,
         )
@@ -138,11 +140,11 @@ impl LapUpdateReport<'_> {
     /// How the fireflies converged.
     fn search(&self) -> String {
         let settings = &self.found.firefly;
-        let picture = convergence_figure(self.found).map_or_else(String::new, |svg| {
-            super::figure(
+        let picture = convergence(self.found).drawn().map_or_else(String::new, |drawn| {
+            html::figure(
                 "convergence",
                 "<b>Convergence of the fireflies</b>: the lowest objective so far over the generations.",
-                &svg,
+                &drawn,
             )
         });
         let rows: Vec<String> = self
@@ -189,6 +191,10 @@ fn place(torque: &TorqueUpdate) -> String {
 
 /// The lowest objective over the generations, at four torques at most; `None` if it was zero all along.
 pub fn convergence_figure(found: &LapUpdate) -> Option<String> {
+    convergence(found).to_svg()
+}
+
+fn convergence(found: &LapUpdate) -> LineFigure<'static> {
     let lines = found.torques.iter().take(4).map(|torque| {
         let history = torque.firefly.history.iter().enumerate();
         let name = torque.data.torque_n_m.map_or_else(
@@ -207,5 +213,4 @@ pub fn convergence_figure(found: &LapUpdate) -> Option<String> {
         up: ("objective", Scale::Logarithmic),
         lines: lines.collect(),
     }
-    .to_svg()
 }

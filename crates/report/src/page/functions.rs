@@ -10,7 +10,7 @@ use super::{Assembly, IdentificationReport, counted};
 use bolted_joint_figures::Axis;
 use bolted_joint_figures::curve::{self, Sample};
 use bolted_joint_figures::html::{cell, escaped, number_cell, percent, table};
-use bolted_joint_frf::{Dof, receptance_unit};
+use bolted_joint_frf::receptance_unit;
 
 /// Functions that are drawn at most.
 const MOST_FIGURES: usize = 9;
@@ -23,9 +23,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let assemblies = report.assemblies();
     let several = assemblies.len() > 1;
     let mut html = "<h2>Frequency response functions</h2>\n<p>Measured, and regenerated with the identified joint. The residual is \
-                    |measured − regenerated| / |regenerated|. Dotted uprights mark resonances of the regenerated function. \
-                    <span class=\"script-only\">Point at a figure to read values, drag across it to zoom, double-click for the \
-                    whole range; with the keyboard: arrows move the cursor, + and − zoom, 0 shows the whole range.</span></p>\n"
+                    |measured − regenerated| / |regenerated|. Dotted uprights mark resonances of the regenerated function.</p>\n"
         .to_owned();
     html += &residuals(&assemblies, several);
     let shares = shares(&assemblies, MOST_FIGURES);
@@ -97,11 +95,12 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
     };
     drawn(&Function {
         id,
-        between: [fit.response, fit.reference],
+        name: &format!("{} / {}", fit.response, fit.reference),
+        unit: receptance_unit(fit.response, fit.reference),
+        remark: &format!(" residual {} r.m.s.", percent(fit.relative_rms)),
         frequency_hz,
         measured: &of(&assembly.lines.assembly),
         regenerated: &of(assembly.regenerated),
-        relative_rms: fit.relative_rms,
     })
 }
 
@@ -109,25 +108,28 @@ fn function(assembly: &Assembly<'_>, fit: usize, id: &str) -> String {
 pub(crate) struct Function<'a> {
     /// Name within the page.
     pub(crate) id: &'a str,
-    /// Response and reference.
-    pub(crate) between: [Dof; 2],
+    /// What it is called.
+    pub(crate) name: &'a str,
+    /// Unit of the values.
+    pub(crate) unit: &'a str,
+    /// What follows its name in the caption, in HTML.
+    pub(crate) remark: &'a str,
     pub(crate) frequency_hz: &'a [f64],
     pub(crate) measured: &'a [Complex64],
     pub(crate) regenerated: &'a [Complex64],
-    pub(crate) relative_rms: f64,
 }
 
 /// Magnitude, phase and residual over frequency.
 pub(crate) fn drawn(function: &Function<'_>) -> String {
     let Function {
         id,
-        between: [response, reference],
+        name,
+        unit,
+        remark,
         frequency_hz,
         measured,
         regenerated,
-        relative_rms,
     } = *function;
-    let name = format!("{response} / {reference}");
     let values = |samples: Vec<Sample>| samples.into_iter().map(|sample| sample.1).collect();
     let curve = |key: Key, samples| Curve {
         name: key.name().to_owned(),
@@ -154,7 +156,7 @@ pub(crate) fn drawn(function: &Function<'_>) -> String {
         strips: vec![
             strip(
                 "magnitude",
-                receptance_unit(response, reference),
+                unit,
                 MAGNITUDE,
                 Axis::logarithmic(both.map(|value| value.norm()), MAGNITUDE_DECADES),
                 vec![
@@ -185,10 +187,6 @@ pub(crate) fn drawn(function: &Function<'_>) -> String {
         ],
         resonating: Some(regenerated),
     };
-    let caption = format!(
-        "<b>{}</b> residual {} r.m.s.",
-        escaped(&name),
-        percent(relative_rms)
-    );
+    let caption = format!("<b>{}</b>{remark}", escaped(name));
     figure(&chart, &caption)
 }

@@ -14,7 +14,7 @@ mod over_torque;
 mod parameters;
 mod sensitivity;
 
-use bolted_joint_figures::html::{self, escaped};
+use bolted_joint_figures::html;
 use bolted_joint_files::Timestamp;
 use bolted_joint_identify::{Identification, Study};
 use bolted_joint_joint::JointFile;
@@ -81,21 +81,18 @@ impl IdentificationReport<'_> {
     }
 }
 
-/// A page around finished sections, with the script that charts need to be zoomed.
+/// A page around finished sections.
 pub(crate) fn page(name: &str, what: &str, written: Timestamp, sections: &str) -> String {
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name}: {what}</title>\n<style>\n{common}{own}</style>\n</head>\n<body>\n<header>\n\
-         <h1>{name}</h1>\n<p>{begins} by {tool} {version}, <time>{written}</time>.</p>\n</header>\n\
-         <main>\n{sections}</main>\n<script>\n{script}</script>\n</body>\n</html>\n",
-        name = escaped(name),
-        begins = html::capitalised(what),
-        common = html::STYLE,
-        own = include_str!("page.css"),
-        script = include_str!("charts.js"),
-        tool = bolted_joint_files::TOOL,
-        version = bolted_joint_files::VERSION,
+    html::page(
+        &format!("{name}: {what}"),
+        name,
+        &format!(
+            "{} by {} {}, <time>{written}</time>.",
+            html::capitalised(what),
+            bolted_joint_files::TOOL,
+            bolted_joint_files::VERSION
+        ),
+        sections,
     )
 }
 

@@ -4,9 +4,10 @@ use num_complex::Complex64;
 
 use super::super::legend::{Key, REGENERATED_COLOUR};
 use super::{Assembly, IdentificationReport};
-use bolted_joint_figures::html::{escaped, number};
+use bolted_joint_figures::html::{self, escaped, number};
 use bolted_joint_figures::{
-    Axis, FONTS, LABELS_BELOW, PathData, Strip, Svg, VALUE_LABELS, draw_path,
+    Axis, Drawn, FONTS, LABELS_BELOW, PathData, Plot, PlotCurve, PlotPanel, PlotPoints, Strip, Svg,
+    VALUE_LABELS, draw_path,
 };
 use bolted_joint_frf::{receptance_unit, resonances};
 use bolted_joint_joint::superscript;
@@ -46,12 +47,12 @@ fn figure(assembly: &Assembly<'_>, assembly_number: usize) -> Option<String> {
     let name = format!("{} / {}", fit.response, fit.reference);
     let title = format!("{name} around its most prominent resonance, imaginary over real part");
     let unit = receptance_unit(fit.response, fit.reference);
-    let svg = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
+    let drawn = draw(&title, unit, &measured, &regenerated[shown.clone()])?;
     let [from, to] = [shown.start, shown.end - 1].map(|line| number(frequency_hz[line]));
-    Some(format!(
-        "<figure class=\"still\" id=\"nyquist-{assembly_number}\">\n<figcaption><b>{}</b> from {from} to {to} Hz</figcaption>\n\
-         <div class=\"picture\">\n{svg}</div>\n</figure>\n",
-        escaped(&name)
+    Some(html::figure(
+        &format!("nyquist-{assembly_number}"),
+        &format!("<b>{}</b> from {from} to {to} Hz", escaped(&name)),
+        &drawn,
     ))
 }
 
@@ -87,7 +88,7 @@ fn draw(
     unit: &str,
     measured: &[Complex64],
     regenerated: &[Complex64],
-) -> Option<String> {
+) -> Option<Drawn> {
     let parts = measured
         .iter()
         .chain(regenerated)
@@ -144,10 +145,33 @@ fn draw(
         dots.dot();
     }
     Key::Measured.draw(&dots, &mut svg);
-    let [across, up] =
+    let [name_across, name_up] =
         ["real", "imaginary"].map(|part| format!("{part} part, 10{} {unit}", raised(power)));
-    strip.draw_axes(&across, &up, &mut svg);
-    Some(svg.finish())
+    strip.draw_axes(&name_across, &name_up, &mut svg);
+    let curve = |key: Key, values: &[Complex64]| {
+        let points = values.iter().map(|h| (h.re * scale, h.im * scale));
+        PlotCurve {
+            name: key.name().to_owned(),
+            look: key.look(),
+            points: PlotPoints::Path(points.collect(), Vec::new()),
+        }
+    };
+    let curves = vec![
+        curve(Key::Measured, measured),
+        curve(Key::Regenerated, regenerated),
+    ];
+    let mut panel = PlotPanel::new("", SIDE, (name_across, across), (name_up, Some(up)), curves);
+    panel.is_square = true;
+    let plot = Plot {
+        title: title.to_owned(),
+        columns: 1,
+        lines: Vec::new(),
+        panels: vec![panel],
+    };
+    Some(Drawn {
+        svg: svg.finish(),
+        plot,
+    })
 }
 
 /// A power of ten, raised.
@@ -206,7 +230,7 @@ mod tests {
     #[test]
     fn a_mode_is_a_circle_of_equal_scales() {
         let (_, function) = mode();
-        let svg = draw("mode", "m/N", &function, &function).unwrap();
+        let svg = draw("mode", "m/N", &function, &function).unwrap().svg;
         let points = longest_line(&svg);
         assert_eq!(points.len(), function.len());
         // through three points of it, [x y 1] (2x₀, 2y₀, r² − x₀² − y₀²)ᵀ = x² + y²

@@ -4,7 +4,7 @@ use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
 use super::IdentificationReport;
 use super::judgement::{COMPARED, Compared};
 use super::parameters;
-use bolted_joint_figures::html::{number, number_cell, quantity, table};
+use bolted_joint_figures::html::{self, number, number_cell, quantity, table};
 use bolted_joint_identify::{JointEstimate, TorqueDependence, Unknown};
 
 const STIFFNESS: &str = "#0072b2";
@@ -69,17 +69,18 @@ fn figure(
     let panels = (0..entries)
         .flat_map(|entry| [panel(entry, STIFFNESS), panel(entries + entry, DAMPING)])
         .collect();
-    let svg = IntervalFigure {
+    let drawn = IntervalFigure {
         title: "Stiffness and damping over the tightening torque, with intervals of 95 %",
         across: "tightening torque, N·m",
         is_counted: false,
         panels,
     }
-    .to_svg();
-    format!(
-        "<figure class=\"still\" id=\"over-torque\">\n<figcaption><b>Stiffness and damping over the torque</b> with their 95 % \
-         intervals. The dashed line is the linear interpolation that an export between the torques uses.</figcaption>\n\
-         <div class=\"picture\">\n{svg}</div>\n</figure>\n"
+    .drawn();
+    html::figure(
+        "over-torque",
+        "<b>Stiffness and damping over the torque</b> with their 95 % intervals. The dashed line is the linear interpolation that \
+         an export between the torques uses.",
+        &drawn,
     )
 }
 

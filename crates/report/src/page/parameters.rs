@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{IdentificationReport, counted, over_torque};
 use bolted_joint_figures::html::{
-    beside, cell, escaped, number_cell, quantity, shown, spread, table,
+    beside, cell, escaped, number_cell, quantity, shown, spread, table, with_deviation,
 };
 use bolted_joint_identify::{JointEstimate, Unknown};
 use bolted_joint_joint::{Drawn, with_symbols};
@@ -48,15 +48,9 @@ fn only_joint(report: &IdentificationReport<'_>, joint: &JointEstimate) -> Strin
 }
 
 /// What [`cells`] are.
-pub(super) const HEADINGS: [&str; 5] = [
-    "Estimate",
-    "Std. dev.",
-    "95 % interval",
-    "Band average",
-    "Unit",
-];
+pub(super) const HEADINGS: [&str; 4] = ["Estimate", "95 % interval", "Band average", "Unit"];
 
-/// One unknown of a joint: estimate, standard deviation, interval, band average, unit.
+/// One unknown of a joint: estimate with its standard deviation, interval, band average, unit.
 pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> String {
     let covariance = &joint.covariance;
     let deviation = covariance.standard_deviation()[index];
@@ -66,16 +60,15 @@ pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> S
     );
     let estimate = if covariance.identified[index] {
         [
-            number_cell(&beside(
+            number_cell(&with_deviation(
                 unknown.value(&joint.bolts()[unknown.joint]),
                 deviation,
             )),
-            number_cell(&spread(deviation)),
             number_cell(&interval(joint.intervals()[index], deviation)),
         ]
         .concat()
     } else {
-        "<td class=\"open\" colspan=\"3\">not identified</td>".to_owned()
+        "<td class=\"open\" colspan=\"2\">not identified</td>".to_owned()
     };
     format!("{estimate}{}{}", number_cell(&average), cell(unknown.unit))
 }
@@ -134,7 +127,7 @@ fn basis(report: &IdentificationReport<'_>) -> String {
         |equations| format!("equations {equations}"),
     );
     let mut html = format!(
-        "<p>The estimate is that of maximum likelihood over all lines and functions together; its standard deviations follow \
+        "<p>In brackets: one standard deviation, in units of the last digit. The estimate is that of maximum likelihood over all lines and functions together; its standard deviations follow \
          from the information matrix. The band average is the classical value, the mean of the decoupled values of each line \
          over the bands (Tol, {equations}); it is given for comparison."
     );

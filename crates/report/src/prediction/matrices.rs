@@ -1,7 +1,7 @@
 //! Pressure and preloads, and the interface as a whole: its 6×6 matrices and loss factors.
 
 use super::super::PressureFigure;
-use super::super::lap::figure;
+use bolted_joint_figures::html::still;
 use bolted_joint_figures::html::{cell, columns, escaped, number, number_cell, shown, table};
 use bolted_joint_predict::patch::{DOFS, InterfaceJoint, Matrix6, Principal};
 use bolted_joint_predict::study::Prediction;
@@ -89,7 +89,7 @@ fn drawing(found: &Prediction<'_>) -> String {
         clearance_m: plate.map_or(0.0, |plate| plate.clearance_m),
     };
     drawn.to_svg().map_or_else(String::new, |svg| {
-        figure(
+        still(
             "pressure",
             &format!("<b>Pressure on the interface</b>{at}, with the bolts and their preloads."),
             &svg,

@@ -6,7 +6,8 @@ mod parameters;
 mod slip;
 mod surfaces;
 
-use super::lap::{page, warnings};
+use super::lap::warnings;
+use super::page::page;
 use bolted_joint_export::provenance;
 use bolted_joint_files::Timestamp;
 use bolted_joint_joint::with_symbols;
@@ -33,10 +34,10 @@ impl PredictionReport<'_> {
         let sections = [
             warnings(self.warnings),
             parameters::section(found),
+            matrices::section(found),
             parameters::contributions(found),
             slip::section(found),
             matrices::pressure(found),
-            matrices::section(found),
             surfaces::section(found),
             assumptions::section(found),
             format!("<h2>Provenance</h2>\n{origin}"),
@@ -44,7 +45,7 @@ impl PredictionReport<'_> {
         .concat();
         page(
             &found.study.name,
-            "Joint predicted from surfaces, materials and bolts",
+            "joint predicted from surfaces, materials and bolts",
             self.written,
             &sections,
         )

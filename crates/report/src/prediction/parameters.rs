@@ -1,9 +1,11 @@
 //! The joint's numbers with their intervals, over the torque where there is a table, and where the scatter comes from.
 
 use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
-use super::super::lap::figure;
 use super::symbol;
-use bolted_joint_figures::html::{beside, cell, escaped, number, number_cell, spread, table};
+use bolted_joint_figures::html::figure;
+use bolted_joint_figures::html::{
+    beside, cell, escaped, number, number_cell, table, with_deviation,
+};
 use bolted_joint_joint::{DofSet, with_symbols};
 use bolted_joint_predict::study::{Prediction, State, Unknown};
 
@@ -24,7 +26,7 @@ pub(super) fn section(found: &Prediction<'_>) -> String {
         })
         .collect();
     format!(
-        "<h2>The joint</h2>\n<p>{}</p>\n{}{tables}",
+        "<h2>The joint</h2>\n<p>{}</p>\n{tables}{}",
         motions(found),
         over_torque(found)
     )
@@ -67,14 +69,13 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
                     let [low, high] = estimate.interval_95.map(|end| beside(end, deviation));
                     [
                         number_cell(&beside(unknown.value, deviation)),
-                        number_cell(&beside(estimate.mean, deviation)),
-                        number_cell(&spread(deviation)),
+                        number_cell(&with_deviation(estimate.mean, deviation)),
                         number_cell(&format!("{low} … {high}")),
                     ]
                     .concat()
                 }
                 None => {
-                    let unknown_to = if found.outcome.is_some() { 3 } else { 0 };
+                    let unknown_to = if found.outcome.is_some() { 2 } else { 0 };
                     number_cell(&number(unknown.value)) + &number_cell("–").repeat(unknown_to)
                 }
             };
@@ -85,8 +86,7 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
         Some(_) => &[
             "",
             "At the values given",
-            "Mean",
-            "Std. dev.",
+            "Mean (std. dev.)",
             "95 % interval",
             "Unit",
         ],
@@ -126,7 +126,7 @@ fn over_torque(found: &Prediction<'_>) -> String {
     figure(
         "over-torque",
         "<b>Over the torque</b>: the values given, with intervals of 95 %.",
-        &drawing.to_svg(),
+        &drawing.drawn(),
     )
 }
 

@@ -5,7 +5,7 @@ use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_joint::{unit_for_people, with_symbols};
 use bolted_joint_predict::study::{Prediction, Slip};
 
-use super::super::lap::figure;
+use bolted_joint_figures::html::figure;
 
 /// Points of a half cycle.
 const POINTS: usize = 100;
@@ -49,21 +49,21 @@ fn of_dof(slip: &Slip) -> String {
         up: ("heat of a cycle, J", Scale::Logarithmic),
         lines: heat(slip),
     };
-    let loops = loops.to_svg().map_or_else(String::new, |svg| {
+    let loops = loops.drawn().map_or_else(String::new, |drawn| {
         figure(
             &id("loops"),
             "<b>Loops</b> with some slip and with nearly all: of the patches, and of the law in their place.",
-            &svg,
+            &drawn,
         )
     });
-    let heat = heat.to_svg().map_or_else(String::new, |svg| {
+    let heat = heat.drawn().map_or_else(String::new, |drawn| {
         figure(
             &id("heat"),
             &format!(
                 "<b>Heat of a cycle</b> over the amplitude: {} patches, and the law in their place.",
                 slip.patches.count()
             ),
-            &svg,
+            &drawn,
         )
     });
     format!(

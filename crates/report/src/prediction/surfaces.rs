@@ -1,9 +1,9 @@
 //! The surfaces: fractal dimension and roughness, and the spectra that they were fitted to.
 
-use super::super::lap::figure;
-use super::super::spectrum_figure;
+use crate::spectrum_figure::spectrum;
+use bolted_joint_figures::html::figure;
 use bolted_joint_figures::html::{
-    beside, cell, escaped, number, number_cell, shown, spread, table,
+    beside, cell, escaped, number, number_cell, shown, table, with_deviation,
 };
 use bolted_joint_predict::study::Prediction;
 use bolted_joint_predict::surface::ProfileFit;
@@ -31,15 +31,13 @@ fn fitted(place: usize, whose: &str, fit: &ProfileFit) -> String {
     let rows = vec![
         [
             cell("<i>D</i>"),
-            number_cell(&beside(roughness.fractal_dimension(), of_dimension)),
-            number_cell(&spread(of_dimension)),
+            number_cell(&with_deviation(roughness.fractal_dimension(), of_dimension)),
             number_cell(&interval(fit.dimension_interval, of_dimension)),
         ]
         .concat(),
         [
             cell("<i>G</i>, m"),
-            number_cell(&beside(roughness.roughness_m(), of_roughness)),
-            number_cell(&spread(of_roughness)),
+            number_cell(&with_deviation(roughness.roughness_m(), of_roughness)),
             number_cell(&interval(fit.roughness_interval_m, of_roughness)),
         ]
         .concat(),
@@ -55,18 +53,18 @@ fn fitted(place: usize, whose: &str, fit: &ProfileFit) -> String {
             )
         })
         .collect();
-    let drawing = spectrum_figure(fit).map_or_else(String::new, |svg| {
+    let drawing = spectrum(fit).drawn().map_or_else(String::new, |drawn| {
         figure(
             &format!("spectrum-{}", place + 1),
             "<b>Spectrum of the profiles</b> (Welch), the means of its bands, and the line fitted to them.",
-            &svg,
+            &drawn,
         )
     });
     format!(
         "<h3>{}</h3>\n{warnings}{}<p>Fitted over wavelengths from {} to {} µm; <i>D</i> and ln <i>G</i> are correlated by {} and drawn \
          together.</p>\n{drawing}",
         escaped(&bolted_joint_figures::html::capitalised(whose)),
-        table(&["", "Estimate", "Std. dev.", "95 % interval"], &rows),
+        table(&["", "Estimate (std. dev.)", "95 % interval"], &rows),
         number(1e6 * shortest_m),
         number(1e6 * longest_m),
         shown(fit.correlation(), 3),

@@ -3,7 +3,7 @@
 
 mod functions;
 
-use bolted_joint_figures::html::escaped;
+use bolted_joint_figures::html::{escaped, figure};
 use bolted_joint_figures::{LineFigure, ResponseCurve, ResponseFigure, ResponsePanel};
 use bolted_joint_files::Timestamp;
 
@@ -54,29 +54,18 @@ pub fn shown_page(title: &str, files: &[ShownFile<'_>], written: Timestamp) -> S
         let rows: String = rows.collect();
         sections +=
             &format!("<div class=\"scroll\"><table><tbody>\n{rows}</tbody></table></div>\n");
-        if pictures
-            .iter()
-            .any(|picture| matches!(picture, ShownPicture::Functions(_)))
-        {
-            sections += "<p class=\"script-only\">Point at a figure to read values, drag across it to zoom, double-click for \
-                         the whole range; with the keyboard: arrows move the cursor, + and − zoom, 0 shows the whole range.</p>\n";
-        }
         for (place, picture) in pictures.iter().enumerate() {
             sections += &match picture {
                 ShownPicture::Functions(group) => group.charts(&format!("shown-{number}-{place}")),
-                ShownPicture::Curves(figure, caption) => still(figure, caption),
+                ShownPicture::Curves(drawing, caption) => {
+                    let id = format!("shown-{number}-{place}");
+                    let drawn = drawing.drawn();
+                    drawn.map_or_else(String::new, |drawn| figure(&id, caption, &drawn))
+                }
             };
         }
     }
     crate::page::page(title, "what is in these files", written, &sections)
-}
-
-fn still(figure: &LineFigure<'_>, caption: &str) -> String {
-    let svg = figure.to_svg().unwrap_or_default();
-    let svg = svg.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
-    format!(
-        "<figure class=\"still\">\n<figcaption>{caption}</figcaption>\n<div class=\"picture\">\n{svg}</div>\n</figure>\n"
-    )
 }
 
 /// All pictures as one SVG document; `None` if there is nothing that can be drawn.

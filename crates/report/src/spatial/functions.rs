@@ -12,19 +12,19 @@ pub(super) fn section(found: &SpatialIdentification) -> String {
     let mut html = format!(
         "<h2>Frequency response functions</h2>\n<p>Measured, and regenerated with the identified joint: the strongest of {}, two \
          within each substructure and two across the joint each way, as far as they were measured. All were used; their residual \
-         is {} r.m.s. <span class=\"script-only\">Point at a figure to read values, drag across it to zoom, double-click for the \
-         whole range.</span></p>\n",
+         is {} r.m.s.</p>\n",
         counted(found.functions, "function"),
         percent(found.relative_rms)
     );
     for (number, fit) in found.fits.iter().enumerate() {
         html += &drawn(&Function {
             id: &format!("frf-{}", number + 1),
-            between: [fit.response, fit.reference],
+            name: &format!("{} / {}", fit.response, fit.reference),
+            unit: receptance_unit(fit.response, fit.reference),
+            remark: &format!(" residual {} r.m.s.", percent(fit.relative_rms)),
             frequency_hz: &found.frequency_hz,
             measured: &fit.measured,
             regenerated: &fit.computed,
-            relative_rms: fit.relative_rms,
         });
     }
     html

@@ -1,4 +1,4 @@
-//! Modes of a universal file (data set 55), made into those of a substructure: SI, unit modal masses, names of points.
+//! Modes of a universal file (data sets 55 and 2414), made into those of a substructure: SI, unit modal masses, names of points.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};
@@ -75,8 +75,8 @@ fn model(path: &Path, file: &ShapeFile) -> Result<ModalModel, StructureError> {
             count => format!(", and {count} of other data at nodes"),
         };
         return Err(refuse(
-            format!("no mode shapes (data set 55){others}"),
-            "data sets 55 of normal modes; export the modes as UFF 55",
+            format!("no mode shapes (data sets 55 and 2414){others}"),
+            "data sets 55 or 2414 of normal modes; export the modes as UFF 55",
         ));
     };
     let units = file.units.unwrap_or(UnitSystem::SI);
@@ -239,7 +239,10 @@ fn understood(file: &ShapeFile, scales: &[Scaled]) -> Vec<(&'static str, String)
     if file.passed_over > 0 {
         all.push((
             "passed over",
-            format!("{} data sets 55 that are no mode shapes", file.passed_over),
+            format!(
+                "{} data sets 55 and 2414 that are no mode shapes",
+                file.passed_over
+            ),
         ));
     }
     all

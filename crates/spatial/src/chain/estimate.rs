@@ -24,6 +24,8 @@ const SEARCHED: usize = 40;
 /// Growth of the deviations of one joint by the unknowns of another, in the median, beyond which the functions hardly tell them
 /// apart.
 const GROWTH_MAX: f64 = 100.0;
+/// The same where the search goes astray: at what it found the growth is not that at the joints.
+const GROWTH_MAX_ASTRAY: f64 = 10.0;
 
 /// One of the joints that were sought.
 #[derive(Clone, Debug)]
@@ -156,7 +158,12 @@ impl ChainIdentification {
         reasons.extend(reasons::of_noise(self.reduced_chi_squared));
         for pair in &self.apart {
             let growth = pair.told.median_growth().into_iter().fold(0.0, f64::max);
-            if growth > GROWTH_MAX {
+            let most = if has_converged {
+                GROWTH_MAX
+            } else {
+                GROWTH_MAX_ASTRAY
+            };
+            if growth > most {
                 let [one, other] = &pair.joints;
                 reasons.push(format!(
                     "the functions hardly tell {one} and {other} apart: with both unknown, deviations are {growth:.0} times as large as \

@@ -203,3 +203,46 @@ impl Sampling {
             .sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use bolted_joint_dynamics::law::{DOF_PARAMETER_COUNT, dof_parameters};
+
+    use super::*;
+
+    fn slider(stiffness: f64, slip_force: f64) -> DofLaws {
+        let mut parameters = [0.0; DOF_PARAMETER_COUNT];
+        for (own, (law, parameter)) in parameters.iter_mut().zip(dof_parameters()) {
+            if law.name == "jenkins" && law.number == 1 {
+                *own = match parameter.key {
+                    "stiffness" => stiffness,
+                    _ => slip_force,
+                };
+            }
+        }
+        DofLaws::new(parameters)
+    }
+
+    /// Where no sample is at a corner, central differences.
+    #[test]
+    fn friction_s_derivatives_are_those_of_its_coefficients() {
+        let sampling = Sampling::new(3, true);
+        let laws = slider(2e6, 60.0);
+        let motion = [1.1e-4, -2.3e-5, 4.1e-6, 3.3e-6];
+        let exact = sampling.force(&laws, &motion, 700.0);
+        for column in 0..motion.len() {
+            let part = 1e-11;
+            let at = |change: f64| {
+                let mut own = motion;
+                own[column] += change;
+                sampling.force(&laws, &own, 700.0).coefficients
+            };
+            let (above, below) = (at(part), at(-part));
+            for i in 0..motion.len() {
+                let expected = (above[i] - below[i]) / (2.0 * part);
+                let found = exact.by_motion[(i, column)];
+                assert!((found - expected).abs() < 2e-3 * 2e6, "{i} {column}: {found} {expected}");
+            }
+        }
+    }
+}

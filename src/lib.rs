@@ -26,6 +26,7 @@
 //! let options = ExportOptions {
 //!     interface: Interface::Element,
 //!     version: FmiVersion::V3,
+//!     model_identifier: None,
 //!     step_size_max_s: None,
 //!     platforms: None,
 //!     preload_n_m: None,

@@ -45,8 +45,9 @@ fn the_fmu_has_the_files_of_the_standard() {
     );
     assert_eq!(fmu.libraries().len(), 1);
     assert_eq!(fmu.libraries()[0].source, LibrarySource::Embedded);
-    let folder = format!("binaries/{}/bolted_joint.", fmu.libraries()[0].platform);
-    assert!(library.starts_with(&folder), "{library}");
+    let platform = &fmu.libraries()[0].platform;
+    let name = format!("binaries/{platform}/M10x16_A2_70_on_6_mm_aluminium_element.");
+    assert!(library.starts_with(&name), "{library}");
     assert_eq!(text(&fmu, "resources/joint.json").unwrap(), source);
 
     let mut archive = ZipArchive::new(Cursor::new(fmu.bytes())).unwrap();

@@ -83,7 +83,7 @@ fn keys_that_do_not_exist_or_are_not_there() {
     assert_eq!(
         refusal("\"name\"", "\"colour\""),
         "m10.joint.json:3:10: colour: unknown key; \
-         expected one of format, name, status, joint, bodies, uncertainty, validity, residual, provenance"
+         expected one of format, name, about, status, joint, bodies, uncertainty, validity, residual, provenance"
     );
     for (line, key) in [
         ("  \"name\": \"bad\",\n", "name"),

@@ -7,8 +7,10 @@
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// Highest power of the logarithm of the amplitude in the trend that all runs share.
-const TREND: usize = 3;
+/// Highest power of the logarithm of the amplitude in the trend that all runs share, of few points and of many …
+const TREND: [usize; 2] = [3, 7];
+/// … which have so many points for each.
+const POINTS_A_POWER: usize = 8;
 /// Smallest singular value, as a part of the largest, that tells a number.
 const SINGULAR: f64 = 1e-10;
 
@@ -93,7 +95,8 @@ impl RunScatter {
             return None;
         }
         let count = errors.len();
-        let columns = runs + TREND;
+        let [least, most] = TREND;
+        let columns = runs + (count.saturating_sub(runs) / POINTS_A_POWER).clamp(least, most);
         if count <= columns {
             return None;
         }

@@ -69,7 +69,7 @@ pub(crate) struct Coupled {
     /// H^C_ss
     pub(crate) receptance: ComplexMatrix,
     /// Q = (I + Y D)⁻¹ G, motion at the joint by loads at the points, 2n × p.
-    q: ComplexMatrix,
+    pub(crate) q: ComplexMatrix,
     /// What a change of H_A does, joint and points: dH^C = Z_Aᵀ dH_A Z_A.
     through_a: ComplexMatrix,
     /// The same of H_B.

@@ -111,9 +111,9 @@ impl Sets {
                     add(&mut of[side as usize], task.measured(&at, found));
                 }
             }
-            let receptances = task.assembled(line, found, &together, &recomputed)?;
-            for (number, receptance) in receptances.iter().enumerate() {
-                let at = task.at_assembly(number, receptance, experiment.omega[line]);
+            let assembled = task.assembled(line, found, &together, &recomputed)?;
+            for (number, coupled) in assembled.iter().enumerate() {
+                let at = task.at_assembly(number, coupled, experiment.omega[line]);
                 add(&mut assemblies[number], task.measured(&at, found));
             }
         }

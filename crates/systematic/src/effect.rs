@@ -1,5 +1,6 @@
 //! What causes do to measured functions: z = φ (h + a), with a factor φ and a part a beside the true receptances h.
 
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::budget::Prior;
@@ -15,8 +16,17 @@ pub(crate) struct At<'f> {
     /// True receptances over the labels.
     pub(crate) truth: &'f ComplexMatrix,
     pub(crate) omega: f64,
-    /// Weights of the labels in the slope at each label; zero where positions are not known.
-    pub(crate) slopes: Option<&'f nalgebra::DMatrix<f64>>,
+    /// Slopes at the labels of an assembly, where positions are known.
+    pub(crate) slopes: Option<Slopes<'f>>,
+}
+
+/// What slopes are made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Slopes<'f> {
+    /// Weights of the motions of labels, of A's DOFs at the joint and of B's in the slope at each label.
+    pub(crate) weights: &'f DMatrix<f64>,
+    /// Motions at the joint, A's and B's, by loads at the labels.
+    pub(crate) at_joint: &'f ComplexMatrix,
 }
 
 impl At<'_> {
@@ -212,10 +222,21 @@ impl At<'_> {
             return ZERO;
         };
         let (row, column) = entry.place;
+        let labels = self.truth.nrows();
         let slope = |label: usize| -> Complex64 {
-            (0..slopes.ncols())
-                .map(|other| self.truth[(other, label)] * slopes[(point, other)])
-                .sum()
+            let weights = slopes.weights.row(point);
+            let of_all = weights
+                .iter()
+                .enumerate()
+                .filter(|(_, weight)| **weight != 0.0);
+            let terms = of_all.map(|(other, &weight)| {
+                let motion = match other.checked_sub(labels) {
+                    None => self.truth[(other, label)],
+                    Some(dof) => slopes.at_joint[(dof, label)],
+                };
+                motion * weight
+            });
+            terms.sum()
         };
         let at_row = if row == point { slope(column) } else { ZERO };
         let at_column = if column == point { slope(row) } else { ZERO };
@@ -230,37 +251,6 @@ fn share_of_row(entry: &Entry, row: usize) -> f64 {
         .iter()
         .filter(|measurement| measurement.0 == row);
     with.count() as f64 / entry.measurements.len().max(1) as f64
-}
-
-/// Points that a slope is taken through.
-const NEAR_POINTS: usize = 5;
-
-/// Weights of the labels in the slope at each label: the derivative of the polynomial through it and its nearest neighbours, two
-/// to each side inside.
-pub(crate) fn slopes(positions_m: &[f64]) -> nalgebra::DMatrix<f64> {
-    let count = positions_m.len();
-    let mut order: Vec<usize> = (0..count).collect();
-    order.sort_by(|&one, &other| positions_m[one].total_cmp(&positions_m[other]));
-    let mut weights = nalgebra::DMatrix::zeros(count, count);
-    for (rank, &label) in order.iter().enumerate() {
-        let first = rank.saturating_sub(NEAR_POINTS / 2);
-        let first = first.min(count.saturating_sub(NEAR_POINTS));
-        let near = &order[first..(first + NEAR_POINTS).min(count)];
-        let x = positions_m[label];
-        for &j in near {
-            // Lagrange: Σ_{i≠j} 1/(x_j − x_i) Π_{k≠i,j} (x − x_k)/(x_j − x_k)
-            let others: Vec<usize> = near.iter().copied().filter(|&other| other != j).collect();
-            let term = |&i: &usize| {
-                let rest = others.iter().filter(|&&k| k != i);
-                let product: f64 = rest
-                    .map(|&k| (x - positions_m[k]) / (positions_m[j] - positions_m[k]))
-                    .product();
-                product / (positions_m[j] - positions_m[i])
-            };
-            weights[(label, j)] = others.iter().map(term).sum();
-        }
-    }
-    weights
 }
 
 #[cfg(test)]
@@ -335,28 +325,5 @@ mod tests {
             at.by_cause(Cause::Gain(MeasuredSet::Assembly(0)), 0.0),
             None
         );
-    }
-
-    #[test]
-    fn slopes_are_exact_on_polynomials_through_the_nearest_points() {
-        let x = [0.3_f64, 0.1, 0.25, 0.6, 0.42, 0.9];
-        for count in 3..=x.len() {
-            let x = &x[..count];
-            let weights = slopes(x);
-            let degree = (count - 1).min(4) as i32;
-            for (label, at) in x.iter().enumerate() {
-                let values = x.iter().enumerate();
-                let found: f64 = values
-                    .map(|(j, x)| weights[(label, j)] * x.powi(degree))
-                    .sum();
-                let exact = f64::from(degree) * at.powi(degree - 1);
-                assert!(
-                    (found - exact).abs() < 1e-9,
-                    "{count}, {label}: {found}, not {exact}"
-                );
-            }
-        }
-        // a line through two
-        assert!((slopes(&[0.0, 0.5]) - nalgebra::dmatrix![-2.0, 2.0; -2.0, 2.0]).amax() < 1e-12);
     }
 }

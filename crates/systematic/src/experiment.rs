@@ -8,8 +8,8 @@ use num_complex::Complex64;
 use super::bending::flexibility_from_drive_points;
 use super::bends::{AtBolt, between_bolts};
 use super::cause::Side;
-use super::effect::slopes;
 use super::modal_fit::ModalFit;
+use super::slope::{Kind, Place, slope};
 
 /// Receptances of one line.
 pub type ComplexMatrix = DMatrix<Complex64>;
@@ -98,6 +98,8 @@ pub struct Measured {
     pub correction: Option<[DMatrix<f64>; 2]>,
     /// How the structure bends beside each bolt; empty where the joint has no rotation.
     pub(crate) at_bolts: Vec<AtBolt>,
+    /// Positions of the bolts, where they are told in the direction of the points, m; empty if none is.
+    bolts_m: Vec<Option<f64>>,
 }
 
 impl Measured {
@@ -115,6 +117,7 @@ impl Measured {
             transformation,
             correction,
             at_bolts: Vec::new(),
+            bolts_m: Vec::new(),
         };
         let flexibility = match bending_stiffness_n_m2 {
             Some(stiffness) if joint.has_rotation() => vec![stiffness.recip(); joint.bolts()],
@@ -138,6 +141,12 @@ impl Measured {
             bolt.bend = bend;
         }
         self
+    }
+
+    /// With the positions, m, of those bolts whose translations are along those of the points, on the points' own axis.
+    #[must_use]
+    pub fn with_bolts_among_points(self, bolts_m: Vec<Option<f64>>) -> Self {
+        Self { bolts_m, ..self }
     }
 }
 
@@ -244,21 +253,29 @@ impl<'a> Experiment<'a> {
         *first.functions.positions_m.get(point)?
     }
 
-    /// Weights of the points in the slope at each of them, on structures that are not computed anew; `None` where no position is
-    /// known.
+    /// Weights in the slope at each point of the motions of all points, of A's DOFs at the joint and of B's, on structures that are
+    /// not computed anew; `None` where no position is known.
     pub(crate) fn slopes(&self) -> Option<DMatrix<f64>> {
-        let mut weights = DMatrix::zeros(self.points(), self.points());
-        for side in [Side::A, Side::B] {
+        let (points, dofs) = (self.points(), self.joint.dofs);
+        let mut weights = DMatrix::zeros(points, points + 2 * dofs);
+        for (side, first) in [(Side::A, points), (Side::B, points + dofs)] {
             if matches!(self.side(side), Structure::Computed(_)) {
                 continue;
             }
             let known = self.points_on(side);
-            let known = known.filter_map(|point| Some((point, self.position_m(point)?)));
-            let (points, positions_m): (Vec<usize>, Vec<f64>) = known.unzip();
-            let own = slopes(&positions_m);
-            for (i, &row) in points.iter().enumerate() {
-                for (j, &column) in points.iter().enumerate() {
-                    weights[(row, column)] = own[(i, j)];
+            let known = known.filter_map(|point| {
+                Some(Place {
+                    x_m: self.position_m(point)?,
+                    translation: point,
+                    kind: Kind::Point,
+                })
+            });
+            let known: Vec<Place> = known.collect();
+            let mut places = known.clone();
+            places.extend(self.bolts_on(side, first));
+            for place in &known {
+                for (motion, weight) in slope(place.x_m, &places) {
+                    weights[(place.translation, motion)] += weight;
                 }
             }
         }
@@ -266,6 +283,24 @@ impl<'a> Experiment<'a> {
             .iter()
             .any(|weight| *weight != 0.0)
             .then_some(weights)
+    }
+
+    /// The bolts of a structure whose place among its points is known; its DOFs at the joint begin at `first`.
+    fn bolts_on(&self, side: Side, first: usize) -> Vec<Place> {
+        let Structure::Measured(measured) = self.side(side) else {
+            return Vec::new();
+        };
+        let positions = measured.bolts_m.iter().enumerate();
+        let places = positions.filter_map(|(bolt, x_m)| {
+            let translation = first + self.joint.translation(bolt);
+            let rotation = self.joint.has_rotation().then_some(translation + 1);
+            Some(Place {
+                x_m: (*x_m)?,
+                translation,
+                kind: Kind::Bolt { rotation },
+            })
+        });
+        places.collect()
     }
 
     /// Labelled functions of a structure that is measured.

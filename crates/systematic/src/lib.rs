@@ -26,6 +26,7 @@ mod refine;
 mod score;
 mod search;
 mod shares;
+mod slope;
 mod starts;
 mod structures;
 mod suspect;

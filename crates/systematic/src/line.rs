@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet, Side};
 use super::coupling::{Coupled, DynamicStiffness, JointValues};
-use super::effect::At;
+use super::effect::{At, Slopes};
 use super::experiment::{Assembly, ComplexMatrix, Entry, Experiment, Structure};
 use super::structures::Recomputations;
 
@@ -170,15 +170,18 @@ impl<'t> Task<'t> {
     pub(crate) fn at_assembly<'r>(
         &'r self,
         number: usize,
-        receptance: &'r ComplexMatrix,
+        coupled: &'r Coupled,
         omega: f64,
     ) -> At<'r> {
         At {
             set: MeasuredSet::Assembly(number),
             functions: &self.experiment.assemblies[number].functions,
-            truth: receptance,
+            truth: &coupled.receptance,
             omega,
-            slopes: self.slopes.as_ref(),
+            slopes: self.slopes.as_ref().map(|weights| Slopes {
+                weights,
+                at_joint: &coupled.q,
+            }),
         }
     }
 
@@ -211,18 +214,18 @@ impl<'t> Task<'t> {
         }
     }
 
-    /// Receptances of each assembly.
+    /// Each assembly.
     pub(crate) fn assembled(
         &self,
         line: usize,
         point: &Point,
         labelled: &Labelled,
         recomputed: &Recomputations,
-    ) -> Option<Vec<ComplexMatrix>> {
+    ) -> Option<Vec<Coupled>> {
         let structures = self.structures(line, point, labelled, recomputed)?;
         let assemblies = self.experiment.assemblies.iter();
         assemblies
-            .map(|assembly| Some(self.coupled(assembly, line, point, &structures)?.receptance))
+            .map(|assembly| self.coupled(assembly, line, point, &structures))
             .collect()
     }
 
@@ -234,14 +237,14 @@ impl<'t> Task<'t> {
         labelled: &Labelled,
         recomputed: &Recomputations,
     ) -> Option<DVector<Complex64>> {
-        let receptances = self.assembled(line, point, labelled, recomputed)?;
+        let assembled = self.assembled(line, point, labelled, recomputed)?;
         let mut left = Vec::new();
-        for (number, receptance) in receptances.iter().enumerate() {
-            let at = self.at_assembly(number, receptance, self.experiment.omega[line]);
+        for (number, coupled) in assembled.iter().enumerate() {
+            let at = self.at_assembly(number, coupled, self.experiment.omega[line]);
             let beside = at.beside(self.priors, &point.causes);
             for (entry, beside) in at.functions.entries.iter().zip(beside) {
                 let factor = at.factor(entry, self.priors, &point.causes);
-                left.push(entry.values[line] / factor - beside - receptance[entry.place]);
+                left.push(entry.values[line] / factor - beside - coupled.receptance[entry.place]);
             }
         }
         Some(DVector::from_vec(left))

@@ -199,9 +199,37 @@ fn structure<'a>(
                 substructure.section().map(Section::bending_stiffness_n_m2),
                 joint,
             )
-            .with_bolts_at(&substructure.bolts_m(), joint),
+            .with_bolts_at(&substructure.bolts_m(), joint)
+            .with_bolts_among_points(bolts_among_points(study, side, measured, joint)),
         )),
     }
+}
+
+/// Positions of the bolts whose translations are along those of the points on this structure.
+fn bolts_among_points(
+    study: &Study,
+    side: Side,
+    measured: &MeasuredSubstructure,
+    joint: &JointShape,
+) -> Vec<Option<f64>> {
+    let (substructure, points) = of_side(study, side);
+    let labels = labels(study, side);
+    let Some(point) = points.first() else {
+        return Vec::new();
+    };
+    let transformation = measured.transformation();
+    let is_along = |bolt: usize| {
+        let row = transformation.row(bolt * joint.dofs_of_a_bolt);
+        let mut its = labels
+            .iter()
+            .zip(row.iter())
+            .filter(|(_, weight)| **weight != 0.0);
+        its.all(|(label, _)| label.direction() == point.direction() && label.sign() == point.sign())
+    };
+    let bolts = substructure.bolts_m().into_iter().enumerate();
+    bolts
+        .map(|(bolt, x_m)| x_m.filter(|_| is_along(bolt)))
+        .collect()
 }
 
 /// The upper triangle of U, reciprocals averaged.

@@ -116,7 +116,7 @@ impl Task<'_> {
         let smooth_coupled = of_smooth.as_ref().unwrap_or(coupled);
         let smooth_structures = line.of_smooth.as_ref().unwrap_or(&line.own);
         let entries = &assembly.functions.entries;
-        let smooth_at = self.at_assembly(number, &smooth_coupled.receptance, omega);
+        let smooth_at = self.at_assembly(number, smooth_coupled, omega);
         let chain = smooth_at.by_truth(self.priors, &point.causes);
         let mut places: Vec<(usize, usize)> = entries.iter().map(|entry| entry.place).collect();
         if chain.is_some() {
@@ -128,7 +128,7 @@ impl Task<'_> {
         };
         let smooth_by_labelled = chained(self.by_labelled(smooth_coupled, &places));
         let by_labelled = chained(self.by_labelled(coupled, &places));
-        let at = self.at_assembly(number, &coupled.receptance, omega);
+        let at = self.at_assembly(number, coupled, omega);
         let beside = at.beside(self.priors, &point.causes);
         let moved = &by_labelled * &line.shift;
         let residual = (0..entries.len()).map(|e| {

@@ -148,6 +148,24 @@ impl JointEstimate {
             .unwrap_or_default()
     }
 
+    /// Numbers of the joints of which no stiffness on the diagonal is known to half of its size.
+    pub(super) fn hardly_determined(&self) -> Vec<usize> {
+        let deviations = self.covariance.standard_deviation();
+        let direct = || {
+            let all = self.covariance.unknowns.iter().zip(&deviations);
+            all.filter(|(unknown, _)| unknown.is_direct_stiffness())
+        };
+        let is_known = |joint: usize| {
+            let mut own = direct().filter(|(unknown, _)| unknown.joint == joint);
+            own.any(|(unknown, deviation)| {
+                *deviation <= UNRELIABLE * unknown.value(&self.free[joint]).abs()
+            })
+        };
+        (0..self.free.len())
+            .filter(|&joint| !is_known(joint))
+            .collect()
+    }
+
     /// What the data do not determine, or hardly; `bolts` are the names of those that have joints of their own.
     pub(super) fn warnings(&self, bolts: &[String]) -> Vec<String> {
         let covariance = &self.covariance;

@@ -83,6 +83,16 @@ pub(super) fn reasons_against(
                 joint.place()
             ));
         }
+        if open.is_empty() {
+            let hardly = joint.hardly_determined().into_iter();
+            reasons.extend(hardly.map(|bolt| {
+                let of = names.get(bolt).map_or_else(String::new, |name| format!(" of {name}"));
+                format!(
+                    "the data hardly determine any stiffness{of}{}: each has a deviation of more than half of its value",
+                    joint.place()
+                )
+            }));
+        }
         let diagonal = joint.free.iter().map(|free| free.stiffness.diagonal());
         for (bolt, _) in diagonal.enumerate().filter(|(_, k)| k.max() <= 0.0) {
             let bolt = names.get(bolt).map(|name| format!("{name}: "));

@@ -11,7 +11,9 @@ pub struct BalanceReport {
     pub dissipated_j: f64,
     /// Largest energy that was stored, or went in, J: what the others are compared with.
     pub scale_j: f64,
-    /// How far the balance may be off, J, given quadrature and step.
+    /// What quadrature and step are found to be off, J.
+    pub uncertainty_j: f64,
+    /// How far the balance may be off, J: that, with a margin where it may be more than is found of it.
     pub tolerance_j: f64,
 }
 

@@ -44,12 +44,14 @@ pub(super) fn balance(
         .iter()
         .fold(0.0_f64, |peak, sample| peak.max(sample.energy_j.abs()));
     let scale_j = peak_j.max(gross);
+    let uncertainty_j = heat.error + work.error + ROUNDING * scale_j;
     Some(BalanceReport {
         work_j: work.value,
         stored_j: last.energy_j - first.energy_j,
         dissipated_j: heat.value,
         scale_j,
-        tolerance_j: heat.error + work.error + ROUNDING * scale_j,
+        uncertainty_j,
+        tolerance_j: uncertainty_j,
     })
 }
 
@@ -92,8 +94,10 @@ pub(super) fn refined(
     let difference = (coarse.work_j - fine.work_j).abs()
         + (coarse.stored_j - fine.stored_j).abs()
         + (coarse.dissipated_j - fine.dissipated_j).abs();
+    let uncertainty_j = fine.uncertainty_j + difference;
     BalanceReport {
-        tolerance_j: margin * (fine.tolerance_j + difference),
+        uncertainty_j,
+        tolerance_j: margin * uncertainty_j,
         ..*fine
     }
 }

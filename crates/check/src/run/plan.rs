@@ -215,11 +215,11 @@ fn balance_finding(balance: &BalanceReport) -> Option<String> {
             balance.dissipated_j
         ));
     }
-    (balance.tolerance_j > MEANINGFUL * balance.scale_j).then(|| {
+    (balance.uncertainty_j > MEANINGFUL * balance.scale_j).then(|| {
         format!(
             "run: found an energy balance that is only known to {:.1e} J of {:.1e} J, expected the run to be accurate \
              enough to judge it",
-            balance.tolerance_j, balance.scale_j
+            balance.uncertainty_j, balance.scale_j
         )
     })
 }

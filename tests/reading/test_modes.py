@@ -302,5 +302,5 @@ def test_bad_analysis_data(run, tmp_path, changed, said):
     for one in sets:
         one.update(changed)
     path = written(tmp_path / "bad.unv", [units_set(), *sets])
-    done = run("show", path, code=1)
+    done = run("show", path, expect=1)
     assert "bad.unv" in done.stderr and said in done.stderr, done.stderr

@@ -47,7 +47,7 @@ fn a_parameter_that_is_not_identified_is_named_without_a_number() {
     let open = open.as_array().unwrap().len();
     assert!(open > 0);
     let parameters = section(&page, "Identified parameters");
-    let cells = parameters.matches("<td class=\"open\" colspan=\"3\">not identified</td>");
+    let cells = parameters.matches("<td class=\"open\" colspan=\"2\">not identified</td>");
     assert_eq!(cells.count(), open);
     assert!(parameters.contains("<p class=\"warning\">Not identified: <i>"));
     assert!(page.contains(&format!("{open} of 6 parameters are not identified")));

@@ -284,10 +284,9 @@ fn a_command_that_gets_another_kind_of_file_names_the_right_one() {
     );
     #[rustfmt::skip]
     let cases = [
-        ("check assembly.uff", "found a universal file, expected a joint file (JSON) or an FMU; `bolted-joint show assembly.uff` takes it"),
-        ("check study.toml", "found a study of method \"frf-decoupling\", expected a joint file (JSON) or an FMU; `bolted-joint identify study.toml -o NAME.joint.json` takes it"),
+        ("check assembly.uff", "found a universal file, expected a joint file (JSON), an assembly file (TOML) or an FMU; `bolted-joint show assembly.uff` takes it"),
+        ("check study.toml", "found a study of method \"frf-decoupling\", expected a joint file (JSON), an assembly file (TOML) or an FMU; `bolted-joint identify study.toml -o NAME.joint.json` takes it"),
         ("check a-modes.toml", "found modes of a structure"),
-        ("check beams.toml", "found an assembly file"),
         ("check .", "found a folder"),
         ("export study.toml -o o.fmu", "found a study of method"),
         ("export j.fmu -o o.fmu", "found an FMU, expected a joint file (JSON) or an assembly file (TOML); `bolted-joint check j.fmu` takes it"),

@@ -30,7 +30,7 @@ impl Keys {
         let mut headings: Vec<(usize, &str)> = Vec::new();
         let mut before = String::new();
         let mut columns: Option<Vec<&str>> = None;
-        let mut is_code = false;
+        let (mut is_code, mut is_at_end) = (false, true);
         for line in PAGE.lines() {
             is_code ^= line.starts_with("```");
             let depth = line.bytes().take_while(|byte| *byte == b'#').count();
@@ -40,6 +40,7 @@ impl Keys {
                 headings.retain(|(other, _)| *other < depth);
                 headings.push((depth, line.trim_start_matches('#').trim()));
                 before = line.to_owned();
+                is_at_end = true;
             } else if line.starts_with('|') {
                 let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
                 match &columns {
@@ -52,14 +53,19 @@ impl Keys {
                         words: words(columns, &cells),
                     }),
                 }
+                is_at_end = true;
             } else {
-                if columns.take().is_some() || line.is_empty() {
+                columns = None;
+                // the last paragraph before a table, or its heading where there is none
+                if is_at_end && !line.is_empty() {
                     before.clear();
                 }
+                is_at_end = line.is_empty();
                 before += line;
                 before += " ";
             }
         }
+        rows.retain(|row| !row.words.is_empty());
         Self(rows)
     }
 
@@ -94,15 +100,13 @@ impl Keys {
                 _ => row.headings.contains(&"`[a]` and `[b]`") && is_part(tables),
             })
         };
-        let in_part = || {
-            named().find(|row| {
-                row.before == "### `[a]` and `[b]`"
-                    || row.headings.last() == Some(&"`[a]` and `[b]`")
-                        && mentions(&row.before, "[a]")
-            })
+        let in_part = || named().find(|row| row.headings.last() == Some(&"`[a]` and `[b]`"));
+        let is_of = |row: &&Row, table: &str| {
+            let heading = row.headings.last().map(|text| text.to_lowercase());
+            mentions(&row.before, table) || heading.is_some_and(|text| text.contains(table))
         };
         let found = dotted.or_else(at_top).or_else(|| match inner {
-            Some(inner) => named().find(|row| mentions(&row.before, inner)),
+            Some(inner) => named().find(|row| is_of(row, inner)),
             None => in_table(),
         });
         let found = found.or_else(|| if is_part(tables) { in_part() } else { None });
@@ -220,7 +224,10 @@ fn words(columns: &[&str], cells: &[&str]) -> String {
             .filter(|text| !text.is_empty())
     };
     let meaning = cell(&["meaning", "what it is", "what"]).unwrap_or_default();
-    let kind = cell(&["type", "value"]);
+    let unit = cell(&["unit"]).filter(|unit| unit != "1");
+    let kind = [cell(&["type", "value"]), unit];
+    let kind: Vec<String> = kind.into_iter().flatten().collect();
+    let kind = (!kind.is_empty()).then(|| kind.join(", "));
     let default = cell(&["default"]).map(|default| match default.starts_with("required") {
         true => default,
         false => format!("default: {default}"),

@@ -241,7 +241,10 @@ mod tests {
             for i in 0..motion.len() {
                 let expected = (above[i] - below[i]) / (2.0 * part);
                 let found = exact.by_motion[(i, column)];
-                assert!((found - expected).abs() < 2e-3 * 2e6, "{i} {column}: {found} {expected}");
+                assert!(
+                    (found - expected).abs() < 2e-3 * 2e6,
+                    "{i} {column}: {found} {expected}"
+                );
             }
         }
     }

@@ -30,7 +30,8 @@ pub enum LawError {
     /// A law whose load is what an importer integrates, with springs that change with the preload.
     #[error(
         "joint.over_preload.friction: found \"{law}\" with a stiffness that depends on the preload, expected the same at all \
-         preloads: its load is a state that follows no preload while it moves; freeze the joint at one preload (`export --preload`)"
+         preloads: its load is a state that follows no preload while it moves; take the joint at one preload (`export --preload`, \
+         or `preload` in the joint's table of an assembly file)"
     )]
     StateOverPreload {
         /// Name of the law.

@@ -189,7 +189,7 @@ fn a_slider_is_followed_into_the_halves_where_it_turns() {
         -0.12703346088832257,
         -0.12743636482495768,
     ];
-    for (count, tolerance) in [(500, 2e-8), (1000, 2e-9), (4000, 1e-10)] {
+    for (count, tolerance) in [(500, 1e-8), (1000, 4e-9), (4000, 1e-10)] {
         let mut steps = AssemblySteps::new(&assembly, 0.02 / f64::from(count), 1e-6).unwrap();
         let rest = steps.at_rest();
         let (state, balance, parts) = followed(&mut steps, rest, count, [200.0, 0.0]);
@@ -203,11 +203,11 @@ fn a_slider_is_followed_into_the_halves_where_it_turns() {
 #[test]
 fn steps_are_halved_until_they_suit_the_joint() {
     let exact = [4.256638020e-4, 1.672845601e-4, 0.4503936292, -0.6683705808];
-    for (tolerance, largest) in [(1e-4, 1e-3), (1e-6, 5e-5), (1e-8, 2e-6)] {
+    for (tolerance, largest) in [(1e-4, 1e-4), (1e-6, 2e-6), (1e-8, 6e-8)] {
         let (state, _, parts) = after(&cubic(), 1e-3, 1, 0.0, tolerance);
         // some periods of the joint's own frequency
         assert_near(&state.motion, &exact, largest);
-        assert!((5..80).contains(&parts), "{parts}");
+        assert!((5..200).contains(&parts), "{parts}");
     }
 }
 

@@ -13,8 +13,10 @@ const USUAL_ITERATIONS: f64 = 3.0;
 const CONVERGED: f64 = 1e-10;
 /// Part of the change before that is no progress.
 const LITTLE_LESS: f64 = 0.3;
-/// Smallest cosine between the tangents of neighbouring points.
+/// Smallest cosine between the tangents of neighbouring points …
 const SMALLEST_COSINE: f64 = 0.97;
+/// … that are farther from each other than this: where something begins to slide the curve has a kink.
+const KINK: f64 = 1e-4;
 
 /// Equations in one unknown more than they are.
 pub(super) trait Curve {
@@ -121,9 +123,10 @@ pub(super) fn follow(
         let predicted = &place + (&along * length).component_mul(&scale);
         let found = solve(curve, &predicted, &scale, &along).and_then(|(next, iterations)| {
             let turned = tangent(curve, &next, &scale, &along)?;
-            (turned.dot(&along) > SMALLEST_COSINE).then_some((next, turned, iterations))
+            let is_smooth = turned.dot(&along) > SMALLEST_COSINE;
+            (is_smooth || length < KINK).then_some((next, turned, iterations, is_smooth))
         });
-        let Some((next, turned, iterations)) = found else {
+        let Some((next, turned, iterations, is_smooth)) = found else {
             length *= 0.5;
             if length < SHORTEST {
                 return Err(Lost { points });
@@ -141,7 +144,11 @@ pub(super) fn follow(
         }
         progress((next[monitored] - from) / (to - from));
         let faster = (USUAL_ITERATIONS / iterations as f64).clamp(0.5, 1.5);
-        length = (length * faster).min(LONGEST);
+        length = match is_smooth {
+            true => (length * faster).min(LONGEST),
+            // beyond the kink it goes on as at the start
+            false => FIRST,
+        };
         let own = curve.scale(&next);
         // the same direction in the sizes of the new point
         along = turned.component_mul(&scale).component_div(&own);

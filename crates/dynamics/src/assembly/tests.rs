@@ -195,8 +195,8 @@ fn a_slider_is_followed_into_the_halves_where_it_turns() {
         let (state, balance, parts) = followed(&mut steps, rest, count, [200.0, 0.0]);
         assert_near(&state.motion, &motion, tolerance);
         assert!(balance.abs() < 0.1 * tolerance, "{balance}");
-        // only six events ask for halves once the step suits the slider's own stiffness
-        assert!(parts < 2 * count as usize, "{parts}");
+        // beside the first steps, that suit the slider's own stiffness, only six events ask for halves
+        assert!(parts < 3 * count as usize, "{parts}");
     }
 }
 

@@ -368,8 +368,79 @@ def test_preloads_beyond_the_table(run, slave, tmp_path):
     assert "found no table over the preload" in done.stderr
 
 
-def test_friction_with_a_table_of_its_own_is_told(run, tmp_path):
-    law = {"dof": "y", "law": "jenkins", "stiffness": 1e6, "slip_force": 40.0}
-    path = write(tmp_path, friction_table=[[law]] * 4)
+# of a slider: both change along the table, straight between its preloads
+SLIDER = {"stiffness": [5e5, 8e5, 1.2e6, 1.5e6], "slip_force": [15.0, 25.0, 40.0, 70.0]}
+
+
+def slid(preloads, interval, part=1e-6):
+    """Motion and heat at the end of each interval with this preload, by small Runge–Kutta steps and a return map after each."""
+    state, slider, heat, all_ = np.zeros(4), 0.0, 0.0, []
+    for preload in preloads:
+        k, h = (np.interp(preload, PRELOADS, SLIDER[key]) for key in ("stiffness", "slip_force"))
+        k0, c0, k3 = float(stiffness(preload)), float(damping(preload)), float(cubic(preload))
+
+        def slip(r):
+            """Elongation of the spring, and the load on the slider."""
+            elongation = min(max(r - slider, -h / k), h / k)
+            return elongation, k * elongation
+
+        def rate(state):
+            r, v = state[0] - state[1], state[2] - state[3]
+            extra = k0 * r + c0 * v + k3 * r**3 + slip(r)[1]
+            return np.array(small.rates(state, LOAD, extra - small.STIFFNESS * r - small.DAMPING * v))
+
+        def moved_on(state, before, load, heat):
+            """The slider after a step, and the heat that the spring did not keep."""
+            r = state[0] - state[1]
+            elongation, now = slip(r)
+            work = (load + now) / 2 * (r - before[0] + before[1])
+            return r - elongation, heat + work
+
+        # what the new slip force holds no longer slips at once
+        r = state[0] - state[1]
+        elongation = slip(r)[0]
+        heat += k / 2 * ((r - slider) ** 2 - elongation**2)
+        slider = r - elongation
+        for _ in range(round(interval / part)):
+            before, load, stored = state, slip(state[0] - state[1])[1], k / 2 * slip(state[0] - state[1])[0] ** 2
+            one = rate(state)
+            two = rate(state + part / 2 * one)
+            three = rate(state + part / 2 * two)
+            four = rate(state + part * three)
+            state = state + part / 6 * (one + 2 * two + 2 * three + four)
+            slider, heat = moved_on(state, before, load, heat)
+            r, (v, v_a) = state[0] - state[1], (state[2] - state[3], state[2])
+            heat -= k / 2 * (r - slider) ** 2 - stored
+            heat += part * (c0 * v**2 + 2 * small.RATIO * small.OMEGA / small.SHAPE**2 * v_a**2)
+        all_.append([*state, heat])
+    return np.array(all_)
+
+
+def test_friction_follows_a_table_of_its_own(slave, tmp_path):
+    """The slip force falls while it slides, and its spring softens while it sticks."""
+    laws = [
+        [{"dof": "y", "law": "jenkins", "stiffness": k, "slip_force": h}] for k, h in zip(*SLIDER.values(), strict=True)
+    ]
+    fmu = slave(write(tmp_path, friction_table=laws))
+    step, preloads = 2e-4, np.concatenate([np.linspace(19.0, 5.0, 60), np.linspace(5.0, 13.0, 40)])
+    fmu.initialise(**{"push.F": LOAD, "lap.preload": preloads[0]})
+    found, stored = [], fmu.get("energy.stored")[0]
+    for place, preload in enumerate(preloads):
+        fmu.set({"lap.preload": preload})
+        fmu.step(place * step, step)
+        found.append(fmu.get(*NAMES, "energy.dissipated"))
+    expected = slid(preloads, step)
+    found = np.array(found)
+    off = np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)
+    assert off[:4].max() < 1e-4 and off[4] < 2e-3, off
+    supplied, dissipated, by_preload = fmu.get(*ENERGIES)
+    assert fmu.get("energy.stored")[0] - stored == pytest.approx(supplied - dissipated + by_preload, rel=1e-9)
+
+
+def test_a_state_that_can_follow_no_preload_is_told(run, tmp_path):
+    law = {"dof": "y", "law": "bouc-wen", "slip_force": 40.0, "exponent": 1.5, "beta": 0.7, "gamma": 0.3}
+    laws = [[{**law, "stiffness": k}] for k in SLIDER["stiffness"]]
+    path = write(tmp_path, friction_table=laws)
     done = run("export", path, "-o", tmp_path / "x.fmu", expect=1)
-    assert "take joint lap at one preload" in done.stderr
+    assert '"bouc-wen"' in done.stderr and "`preload`" in done.stderr, done.stderr
+    assert not (tmp_path / "x.fmu").exists()

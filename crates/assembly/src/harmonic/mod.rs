@@ -369,8 +369,9 @@ impl Free<'_, '_> {
     fn shape(&self, unknowns: &mut DVector<f64>) -> Option<()> {
         let problem = self.problem;
         let size = problem.size();
-        // beside the mode, so that the matrix is not singular
-        let omega = unknowns[size] * (1.0 + VARIED);
+        // beside the mode: at an undamped resonance of a structure itself nothing is finite
+        unknowns[size] *= 1.0 + VARIED;
+        let omega = unknowns[size];
         let linear = problem.linear(omega, unknowns[size + 1], &self.no_loads())?;
         let first = linear.at.first()?;
         let mut stiffness = first.stiffness.clone();

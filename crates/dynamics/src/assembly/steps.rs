@@ -138,6 +138,9 @@ impl AssemblySteps {
                 }
             }
         }
+        if let Some(scratch) = self.scratch.first_mut() {
+            scratch.let_go(&self.system, state);
+        }
         self.is_too_long = false;
         self.part(state, 0, HALVINGS_AT_EVENTS)
     }
@@ -292,6 +295,23 @@ impl Scratch {
                 // Σ wₖ θᵏ/k!
                 w0[place] + theta * (w1[place] + theta / 2.0 * after)
             });
+        }
+    }
+
+    /// What friction held at the preload before a step and no longer holds slips at once, before anything moves.
+    fn let_go(&mut self, system: &System, state: &mut AssemblyState) {
+        self.follow(system);
+        let Some(begin) = self.laws.first() else {
+            return;
+        };
+        let now = &mut self.relative[0];
+        system.relative(&state.motion, now);
+        let (r, velocity) = now.split_at(begin.on.len());
+        let laws = begin.on.iter().zip(&mut state.memory);
+        for (i, (laws, memory)) in laws.enumerate() {
+            if laws.have_memory() {
+                state.dissipated_j += laws.commit(memory, r[i], velocity[i]);
+            }
         }
     }
 

@@ -80,7 +80,7 @@ pub struct Entry {
 /// A structure that the joint connects.
 pub enum Structure<'a> {
     /// Formed from measured functions.
-    Measured(Measured),
+    Measured(Box<Measured>),
     /// Computed from dimensions and material.
     Computed(Computed<'a>),
     /// Known, with nothing to say about why.

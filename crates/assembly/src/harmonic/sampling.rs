@@ -49,12 +49,21 @@ impl Sampling {
             |sample: usize, order: usize| TAU * ((sample * order) % count) as f64 / count as f64;
         let wave = |sample: usize, column: usize| {
             let (sine, cosine) = angle(sample, orders[column / 2]).sin_cos();
-            if column % 2 == 0 { cosine } else { sine }
+            if column.is_multiple_of(2) {
+                cosine
+            } else {
+                sine
+            }
         };
         let slope = |sample: usize, column: usize| {
             let order = orders[column / 2];
             let (sine, cosine) = angle(sample, order).sin_cos();
-            order as f64 * if column % 2 == 0 { -sine } else { cosine }
+            order as f64
+                * if column.is_multiple_of(2) {
+                    -sine
+                } else {
+                    cosine
+                }
         };
         Self {
             waves: DMatrix::from_fn(count, 2 * orders.len(), wave),

@@ -184,7 +184,7 @@ fn structure<'a>(
             }))
         }
         (_, Receptances::Exact(matrices)) => Some(Structure::Exact(matrices.clone())),
-        (_, Receptances::Measured(measured)) => Some(Structure::Measured(
+        (_, Receptances::Measured(measured)) => Some(Structure::Measured(Box::new(
             Measured::new(
                 functions(
                     measured.as_measured(),
@@ -201,7 +201,7 @@ fn structure<'a>(
             )
             .with_bolts_at(&substructure.bolts_m(), joint)
             .with_bolts_among_points(bolts_among_points(study, side, measured, joint)),
-        )),
+        ))),
     }
 }
 

@@ -1,0 +1,73 @@
+//! Motion under loads of one frequency: unknowns are the motion and the frequency.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use super::follow::Curve;
+use super::{ForcedPoint, OF_FREQUENCY, Problem};
+
+/// Forced motion: unknowns are the motion and ω.
+pub(super) struct Forced<'p, 'm> {
+    pub(super) problem: &'p Problem<'m>,
+    pub(super) loads: DVector<Complex64>,
+}
+
+impl Forced<'_, '_> {
+    /// The motion without the laws.
+    pub(super) fn linear(&self, omega: f64) -> Option<DVector<f64>> {
+        let problem = self.problem;
+        let linear = problem.linear(omega, 0.0, &self.loads)?;
+        let first = linear.at.first()?;
+        let r = first.stiffness.clone().lu().solve(&first.load)?;
+        let mut start = DVector::zeros(problem.size() + 1);
+        for dof in 0..r.len() {
+            let place = problem.place(dof, 0);
+            start[place] = r[dof].re;
+            start[place + 1] = -r[dof].im;
+        }
+        start[problem.size()] = omega;
+        Some(start)
+    }
+
+    pub(super) fn outputs(&self, unknowns: &DVector<f64>) -> Option<ForcedPoint> {
+        let problem = self.problem;
+        let omega = unknowns[problem.size()];
+        let motion = unknowns.as_slice().get(..problem.size())?;
+        let (_, _, forces) = problem.balance(motion, omega, 0.0, &self.loads)?;
+        let linear = problem.linear(omega, 0.0, &self.loads)?;
+        let harmonics = problem.sampling.orders.len();
+        let all: Vec<DVector<Complex64>> = (0..harmonics)
+            .map(|own| problem.outputs(&linear, &forces, own))
+            .collect();
+        let first = all.first()?;
+        let largest = (0..first.len()).map(|output| {
+            let pairs = all.iter().flat_map(|own| [own[output].re, -own[output].im]);
+            let coefficients: Vec<f64> = pairs.collect();
+            problem.sampling.largest(&coefficients)
+        });
+        Some(ForcedPoint {
+            frequency_hz: omega / TAU,
+            largest: largest.collect(),
+            fundamental: first.iter().copied().collect(),
+        })
+    }
+}
+
+impl Curve for Forced<'_, '_> {
+    fn at(&self, unknowns: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let (motion, omega) = unknowns.as_slice().split_at(self.problem.size());
+        let (residual, derivatives, _) =
+            self.problem
+                .balance(motion, *omega.first()?, 0.0, &self.loads)?;
+        Some((residual, derivatives))
+    }
+
+    fn scale(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        let size = self.problem.size();
+        let mut scale = DVector::from_element(size + 1, self.problem.amplitude(unknowns));
+        scale[size] = OF_FREQUENCY * unknowns[size];
+        scale
+    }
+}

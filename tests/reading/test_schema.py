@@ -88,7 +88,8 @@ def test_wrong_types_and_words_are_refused(key, value):
 def test_completions_are_there():
     """What an editor offers: keys, words and what a value may be."""
     own = SCHEMA["oneOf"][0]
-    assert own["properties"]["method"] == {"const": "frf-decoupling"}
+    method = own["properties"]["method"]
+    assert method["const"] == "frf-decoupling" and "joint between two structures" in method["description"]
     text = json.dumps(SCHEMA)
     for word in ("translation", "diagonal", "euler-bernoulli", "points_on_a", "accelerometer_mass", "a standard deviation or"):
         assert word in text, word

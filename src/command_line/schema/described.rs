@@ -139,7 +139,11 @@ impl Keys {
                                 if let (Some(words), Schema::Object(value)) =
                                     (self.words(path, section), value)
                                 {
-                                    value.insert("description".to_owned(), words.into());
+                                    // beside what the reader says of a value
+                                    let own = value.get("description").and_then(Schema::as_str);
+                                    let both = own.map(|own| format!("{words}; {own}"));
+                                    let both = both.unwrap_or_else(|| words.to_owned());
+                                    value.insert("description".to_owned(), both.into());
                                 }
                                 path.pop();
                             }
@@ -223,7 +227,13 @@ fn words(columns: &[&str], cells: &[&str]) -> String {
             .map(|text| plain(text))
             .filter(|text| !text.is_empty())
     };
-    let meaning = cell(&["meaning", "what it is", "what"]).unwrap_or_default();
+    let meaning = cell(&[
+        "meaning",
+        "what it is",
+        "what it has",
+        "what is not known exactly",
+    ])
+    .unwrap_or_default();
     let unit = cell(&["unit"]).filter(|unit| unit != "1");
     let kind = [cell(&["type", "value"]), unit];
     let kind: Vec<String> = kind.into_iter().flatten().collect();

@@ -1,7 +1,7 @@
 //! Where loads act and where motions are seen: `b/12:+Y`.
 
-use bolted_joint_dynamics::DofKind;
-use bolted_joint_frf::Dof;
+use bolted_joint_dynamics::{self as dynamics, DOFS, DofKind, SPACE};
+use bolted_joint_frf::{Direction, Dof};
 
 /// A degree of freedom of one of the structures.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,5 +29,19 @@ impl Channel {
             true => DofKind::Rotation,
             false => DofKind::Translation,
         }
+    }
+
+    /// The letters of its quantities: those in a plane along y and about z, those in space otherwise.
+    #[must_use]
+    pub fn letters(&self) -> &'static dynamics::Dof {
+        let row = match self.place.dof.direction() {
+            Direction::Y | Direction::Scalar => 0,
+            Direction::RZ => 1,
+            Direction::X => SPACE,
+            Direction::Z => SPACE + 2,
+            Direction::RX => SPACE + 3,
+            Direction::RY => SPACE + 4,
+        };
+        &DOFS[row]
     }
 }

@@ -4,9 +4,8 @@
 use std::fmt::Write as _;
 
 use bolted_joint_assembly::{AssemblyModel, Channel, NamedStructure, Place, PlacedJoint};
-use bolted_joint_dynamics::{DOFS, Dof, SPACE};
+use bolted_joint_dynamics::Dof;
 use bolted_joint_files::{TOOL, VERSION};
-use bolted_joint_frf::Direction;
 use nalgebra::RowDVector;
 
 use crate::head::ascii;
@@ -228,11 +227,11 @@ impl<'m> Structure<'m> {
             }
         }
         for input in &self.inputs {
-            let name = variable(input, letters(input).load);
+            let name = variable(input, input.letters().load);
             rows.push((format!("shape_to_{name}"), &input.place, Row::Input(name)));
         }
         for output in &self.outputs {
-            let dof = letters(output);
+            let dof = output.letters();
             let names = [dof.name, dof.rate].map(|own| variable(output, own));
             rows.push((
                 format!("shape_of_{}", names[0]),
@@ -260,11 +259,11 @@ fn whole(model: &AssemblyModel, text: &mut String) {
     line!(text, "  model Assembly \"loads in, motions out\"");
     let mut equations = String::new();
     for input in &model.inputs {
-        let name = variable(input, letters(input).load);
+        let name = variable(input, input.letters().load);
         line!(
             text,
             "    input Real {name}(unit=\"{}\");",
-            modelica_unit(letters(input).kind.load_unit())
+            modelica_unit(input.letters().kind.load_unit())
         );
         line!(
             equations,
@@ -273,7 +272,7 @@ fn whole(model: &AssemblyModel, text: &mut String) {
         );
     }
     for output in &model.outputs {
-        let dof = letters(output);
+        let dof = output.letters();
         let unit = dof.kind.displacement_unit();
         for (quantity, unit) in [(dof.name, unit.to_owned()), (dof.rate, format!("{unit}/s"))] {
             let name = variable(output, quantity);
@@ -317,19 +316,6 @@ fn component(model: &AssemblyModel, channel: &Channel) -> String {
 
 fn variable(channel: &Channel, quantity: &str) -> String {
     format!("{}_{quantity}", channel.name)
-}
-
-/// The letters of a place's quantities, as the FMU of the assembly has them.
-fn letters(channel: &Channel) -> &'static Dof {
-    let row = match channel.place.dof.direction() {
-        Direction::Y | Direction::Scalar => 0,
-        Direction::RZ => 1,
-        Direction::X => SPACE,
-        Direction::Z => SPACE + 2,
-        Direction::RX => SPACE + 3,
-        Direction::RY => SPACE + 4,
-    };
-    &DOFS[row]
 }
 
 fn modelica_unit(unit: &str) -> String {

@@ -10,8 +10,8 @@ use bolted_joint_dynamics::{
 };
 
 use super::variables::{
-    List, Listed, Places, Role, TypeOf, displacement, displacement_type, letters, load, load_type,
-    of_joint, place, rate, rate_type, short, shown,
+    List, Listed, Places, Role, TypeOf, displacement, displacement_type, load, load_type, of_joint,
+    place, rate, rate_type, short, shown,
 };
 
 impl List {
@@ -85,7 +85,7 @@ impl Maker<'_> {
     fn loads(&mut self) {
         let model = self.model;
         for input in &model.inputs {
-            let dof = letters(input);
+            let dof = input.letters();
             let name = format!("{}.{}", input.name, dof.load);
             let description = format!(
                 "{} on {}; held over a step in Co-Simulation, unless the importer says how it goes on",
@@ -195,7 +195,7 @@ impl Maker<'_> {
         let (model, places) = (self.model, self.places);
         let rows = model.output_rows();
         for (row, output) in model.outputs.iter().enumerate() {
-            let dof = letters(output);
+            let dof = output.letters();
             let own: Vec<usize> = (0..places.size)
                 .filter(|&i| rows[(row, i)] != 0.0)
                 .collect();

@@ -26,7 +26,6 @@ use super::token::token;
 use super::{ExportError, FmiVersion, Timestamp};
 pub(super) use names::check_word;
 use variables::List;
-pub(super) use variables::letters;
 
 /// How an assembly is exported.
 #[derive(Debug, Clone, PartialEq)]
@@ -191,7 +190,7 @@ pub fn assembly_fmu(
 fn points(model: &AssemblyModel) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
     for channel in model.outputs.iter().chain(&model.inputs) {
-        let dof = letters(channel);
+        let dof = channel.letters();
         match points.iter_mut().find(|point| point.name == channel.name) {
             Some(point) if point.dofs.contains(&dof) => {}
             Some(point) => point.dofs.push(dof),

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use bolted_joint_assembly::AssemblyModel;
 
 use super::super::ExportError;
-use super::variables::letters;
 
 /// First words that the FMU has variables of its own under.
 const TAKEN: [&str; 4] = ["time", "modal", "energy", "power"];
@@ -35,12 +34,12 @@ pub(super) fn check(model: &AssemblyModel) -> Result<(), ExportError> {
     for input in &model.inputs {
         let owner = format!("inputs.{}", input.name);
         check_word(&owner, &input.name)?;
-        add(format!("{}.{}", input.name, letters(input).load), &owner)?;
+        add(format!("{}.{}", input.name, input.letters().load), &owner)?;
     }
     for output in &model.outputs {
         let owner = format!("outputs.{}", output.name);
         check_word(&owner, &output.name)?;
-        let dof = letters(output);
+        let dof = output.letters();
         for quantity in [dof.name, dof.rate] {
             add(format!("{}.{quantity}", output.name), &owner)?;
         }

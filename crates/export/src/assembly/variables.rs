@@ -3,11 +3,10 @@
 
 use bolted_joint_assembly::{AssemblyModel, Channel};
 use bolted_joint_dynamics::{
-    DOFS, Dof, DofKind, DofLaws, SPACE,
+    DofKind, DofLaws,
     assembly::Assembly,
     law::{Declaration, INNER_PLACES, Remembered, remembered},
 };
-use bolted_joint_frf::Direction;
 
 /// What a variable is to the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,19 +164,6 @@ pub(super) fn of_joint(joint: &str, declared: &str) -> String {
         Some(own) => format!("{joint}.{own}"),
         None => format!("{joint}.{declared}"),
     }
-}
-
-/// The letters of a place's quantities: those in a plane along y and about z, those in space otherwise.
-pub(crate) fn letters(channel: &Channel) -> &'static Dof {
-    let row = match channel.place.dof.direction() {
-        Direction::Y | Direction::Scalar => 0,
-        Direction::RZ => 1,
-        Direction::X => SPACE,
-        Direction::Z => SPACE + 2,
-        Direction::RX => SPACE + 3,
-        Direction::RY => SPACE + 4,
-    };
-    &DOFS[row]
 }
 
 /// The place as people read it.

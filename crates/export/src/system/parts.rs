@@ -6,7 +6,7 @@ use bolted_joint_assembly::{AssemblyModel, Channel, Place, PlacedJoint};
 use bolted_joint_dynamics::Dof;
 
 use super::super::ExportError;
-use super::super::assembly::{check_word, letters};
+use super::super::assembly::check_word;
 
 /// A structure as an assembly without joints.
 pub(super) struct StructurePart {
@@ -65,7 +65,7 @@ impl Parts {
                         continue;
                     };
                     part.check_free(&channel.name, joint)?;
-                    let own = letters(&channel);
+                    let own = channel.letters();
                     let at = |quantity: &str| {
                         [part.name.clone(), format!("{}.{quantity}", channel.name)]
                     };
@@ -118,7 +118,7 @@ impl Ends {
                     name: format!("{}_{side}", joint.name),
                     place: place.clone(),
                 };
-                if !used.insert(letters(&channel).name) {
+                if !used.insert(channel.letters().name) {
                     channel.name = format!("{}_{side}_{}", joint.name, dof.name);
                 }
                 channel
@@ -205,11 +205,11 @@ impl StructurePart {
         };
         let mut points = Vec::new();
         for channel in &self.own_inputs {
-            let dof = letters(channel);
+            let dof = channel.letters();
             points.push(point(channel, dof, dof.load, true));
         }
         for channel in &self.own_outputs {
-            let dof = letters(channel);
+            let dof = channel.letters();
             points
                 .extend([dof.name, dof.rate].map(|quantity| point(channel, dof, quantity, false)));
         }

@@ -4,7 +4,6 @@ use bolted_joint_assembly::PlacedJoint;
 use bolted_joint_dynamics::{Dof, DofKind};
 
 use super::super::Timestamp;
-use super::super::assembly::letters;
 use super::super::description::generation_tool;
 use super::super::xml::{Attributes, Document};
 use super::parameter_set::{ParameterSet, SSV};
@@ -54,7 +53,7 @@ impl Component {
             })
             .collect();
         for channel in &part.of_joints {
-            connectors.extend(Connector::of_side(&channel.name, letters(channel), true));
+            connectors.extend(Connector::of_side(&channel.name, channel.letters(), true));
         }
         Self {
             name: part.name.clone(),

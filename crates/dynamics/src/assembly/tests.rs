@@ -189,14 +189,14 @@ fn a_slider_is_followed_into_the_halves_where_it_turns() {
         -0.12703346088832257,
         -0.12743636482495768,
     ];
-    for (count, tolerance) in [(500, 1e-8), (1000, 4e-9), (4000, 1e-10)] {
+    for (count, tolerance, most) in [(500, 1e-8, 1200), (1000, 4e-9, 2000), (4000, 1e-10, 8000)] {
         let mut steps = AssemblySteps::new(&assembly, 0.02 / f64::from(count), 1e-6).unwrap();
         let rest = steps.at_rest();
         let (state, balance, parts) = followed(&mut steps, rest, count, [200.0, 0.0]);
         assert_near(&state.motion, &motion, tolerance);
         assert!(balance.abs() < 0.1 * tolerance, "{balance}");
         // beside the first steps, that suit the slider's own stiffness, only six events ask for halves
-        assert!(parts < 3 * count as usize, "{parts}");
+        assert!(parts < most, "{parts}");
     }
 }
 

@@ -51,3 +51,10 @@ def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(progra
     _, whole = bolted.near(program, tmp_path, 1, 3, 0.03)
     assert not whole["usable"]
     assert any("is larger than what tells the bolts apart" in reason for reason in whole["reasons_against"]), whole["reasons_against"]
+
+
+@pytest.mark.parametrize("draw", [13, 17])
+def test_with_misplaced_sensors_between_bolts_a_joint_holds_or_is_refused(program, tmp_path, draw):
+    """Draw 17 was 6.2 deviations off with slopes across bolts; of 13 the data hardly know the second bolt, 20 deviations off."""
+    z = bolted.a_little_wrong(program, tmp_path, draw, None, "different")
+    assert z is None if draw == 13 else abs(z).max() < 3.5, z

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::likelihood::log_variances;
+use super::marquardt::{self, Damping};
 use super::noise::{Levels, Noise, Size};
 use super::normal::{Normal, TOLERANCE, relative_change};
 use super::objective::{Corrections, Objective, State, Weights};
@@ -94,8 +95,6 @@ impl Estimate {
 }
 
 const MAX_REWEIGHTINGS: usize = 20;
-/// Damping of the first step, a fraction of the diagonal of JᵀJ.
-pub(super) const FIRST_DAMPING: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 100;
 /// The same where corrections of the substructures follow each step.
 const MAX_ITERATIONS_OF_CORRECTED: usize = 40;
@@ -137,7 +136,7 @@ pub(super) fn estimate(
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
     let mut unrest = f64::INFINITY;
-    let mut damping = FIRST_DAMPING;
+    let mut damping = Damping(marquardt::FIRST);
     for round in 0..MAX_REWEIGHTINGS {
         if !estimates_level {
             let near = follow(objective, levels, chart, (coordinates, weights, state))?;
@@ -153,7 +152,11 @@ pub(super) fn estimate(
         } else {
             negligible_gain(objective)
         };
-        let control = (gain, damping);
+        let control = Control {
+            negligible_gain: gain,
+            damping,
+            most: most_iterations(objective),
+        };
         let rest = if objective.holds {
             scored(objective, &weights, chart, &coordinates, state, gain)
         } else {
@@ -292,10 +295,43 @@ pub(super) fn minimum(
     weights: &[Weights],
     start: &DVector<f64>,
 ) -> Option<State> {
-    let state = objective.at(weights, start.clone(), None)?;
-    let control = (GAIN_BEFORE_RENEWAL, FIRST_DAMPING);
-    let rest = levenberg_marquardt(objective, weights, &Free, start, state, control);
+    let rest = towards_minimum(objective, weights, start, Damping(marquardt::FIRST), None)?;
     Some(rest.state)
+}
+
+/// Goes there from `start`, with as many trials of a step as `most` allows.
+pub(super) fn towards_minimum(
+    objective: &Objective<'_>,
+    weights: &[Weights],
+    start: &DVector<f64>,
+    damping: Damping,
+    most: Option<usize>,
+) -> Option<Rest> {
+    let state = objective.at(weights, start.clone(), None)?;
+    let control = Control {
+        negligible_gain: GAIN_BEFORE_RENEWAL,
+        damping,
+        most: most.unwrap_or_else(|| most_iterations(objective)),
+    };
+    let rest = levenberg_marquardt(objective, weights, &Free, start, state, control);
+    Some(rest)
+}
+
+/// When an iteration ends, and how it begins.
+struct Control {
+    /// Gain that the full step promises, as a fraction of the cost, below which it has come to rest.
+    negligible_gain: f64,
+    damping: Damping,
+    /// Trials of a step.
+    most: usize,
+}
+
+fn most_iterations(objective: &Objective<'_>) -> usize {
+    if objective.is_independent() {
+        MAX_ITERATIONS
+    } else {
+        MAX_ITERATIONS_OF_CORRECTED
+    }
 }
 
 /// Where an iteration with held weights came to rest.
@@ -305,7 +341,7 @@ pub(super) struct Rest {
     pub(super) scale: DVector<f64>,
     pub(super) settled: bool,
     /// Damping that the last step left, to go on with.
-    pub(super) damping: f64,
+    pub(super) damping: Damping,
 }
 
 /// Steps over which the promise of a search that comes to rest falls by more than half.
@@ -324,17 +360,16 @@ fn levenberg_marquardt(
     chart: &dyn Chart,
     start: &DVector<f64>,
     mut state: State,
-    (negligible_gain, first_damping): (f64, f64),
+    control: Control,
 ) -> Rest {
     let mut coordinates = start.clone();
     let mut normal = state.normal_in(chart, &coordinates);
-    let mut damping = first_damping;
+    let Control {
+        negligible_gain,
+        mut damping,
+        most,
+    } = control;
     let mut settled = false;
-    let most = if objective.is_independent() {
-        MAX_ITERATIONS
-    } else {
-        MAX_ITERATIONS_OF_CORRECTED
-    };
     let mut promises: Vec<f64> = Vec::new();
     for _ in 0..most {
         if objective.is_of_many_bolts() && wanders(&promises) {
@@ -344,25 +379,29 @@ fn levenberg_marquardt(
             settled = true;
             break;
         }
-        let trial = normal.step(damping).map(|step| &coordinates + step);
+        let trial = normal.step(damping.0).map(|step| {
+            let promised = normal.gain(&step, damping.0);
+            (&coordinates + step, promised)
+        });
         let improved = trial
             .as_ref()
+            .map(|(trial, _)| trial)
             .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
             .and_then(|trial| {
                 let corrections = Some(Arc::clone(&state.corrections));
                 objective.at(weights, chart.unknowns(trial), corrections)
             })
             .filter(|next| next.normal.cost <= state.normal.cost * (1.0 + negligible_gain));
-        if let (Some(trial), Some(next)) = (trial, improved) {
+        if let (Some((trial, promised)), Some(next)) = (trial, improved) {
             coordinates = trial;
+            damping = damping.taken((state.normal.cost - next.normal.cost) / promised);
             state = next;
             normal = state.normal_in(chart, &coordinates);
             promises.extend(normal.promise());
-            damping = (damping * 0.01).max(1e-15);
         } else {
-            damping *= 10.0;
-            if damping > 1e12 {
-                break;
+            match damping.refused() {
+                Some(more) => damping = more,
+                None => break,
             }
         }
     }
@@ -372,6 +411,6 @@ fn levenberg_marquardt(
         coordinates,
         state,
         settled,
-        damping: damping.min(FIRST_DAMPING),
+        damping: damping.for_the_next(),
     }
 }

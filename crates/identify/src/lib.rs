@@ -38,6 +38,7 @@ mod line;
 mod line_by_line;
 mod lines;
 mod lines_estimate;
+mod marquardt;
 mod model;
 mod motions;
 mod noise;

@@ -63,6 +63,13 @@ impl Normal {
         Some(factor.solve(&gradient).component_mul(&scale))
     }
 
+    /// Gain that a step with this damping promises in the linearised model.
+    pub(super) fn gain(&self, step: &DVector<f64>, damping: f64) -> f64 {
+        // S(p) − S(p + δ) = 2 δᵀ Jᵀ r − δᵀ JᵀJ δ, and JᵀJ δ = Jᵀ r − μ diag JᵀJ δ
+        let of_damping = step.component_div(&self.scale()).norm_squared();
+        step.dot(&self.gradient) + damping * of_damping
+    }
+
     /// Gain that the full step promises in the linearised model, as a fraction of the cost.
     pub(super) fn promise(&self) -> Option<f64> {
         Some(self.step(1e-12)?.dot(&self.gradient) / self.cost)

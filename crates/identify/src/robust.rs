@@ -3,17 +3,24 @@
 
 use nalgebra::DVector;
 
-use super::estimator::{Estimate, first_levels, minimum, misfit};
+use super::estimator::{Estimate, first_levels, misfit, towards_minimum};
 use super::likelihood::log_variances;
+use super::marquardt::{self, Damping};
 use super::noise::Noise;
 use super::normal::relative_change;
 use super::objective::{Corrections, Objective};
 
 /// Times that the variances are renewed, at most.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 12;
+/// Trials of a step between two renewals, at most: variances from a joint that is far off lead nowhere in particular.
+const TRIALS_OF_A_ROUND: usize = 16;
 /// Change of every unknown, relative to its value or to what changes the residual by its standard deviation, below which the
 /// estimate has come to rest.
 const SETTLED: f64 = 1e-5;
+/// Rounds in which a search that leads somewhere more than halves the cost …
+const ROUNDS_OF_A_FALL: usize = 3;
+/// … as long as an unknown still changes by more than this part of it.
+const FAR: f64 = 1e-1;
 
 /// The estimate from `start`: `exact` and `whole` are the same lines without the errors of the substructures and with them. Where
 /// the noise is not stated, its level follows from what is left.
@@ -25,16 +32,27 @@ pub(super) fn robust(
 ) -> Option<Estimate> {
     let first = first_levels(noise);
     let mut unknowns = start.clone();
+    let mut damping = Damping(marquardt::FIRST);
     let mut converged = false;
+    let mut costs = Vec::new();
     let mut rest = None;
     for _ in 0..ROUNDS {
         let weights = whole.marginal_weights(first, &unknowns)?;
-        let state = minimum(exact, &weights, &unknowns)?;
-        let moved = relative_change(&unknowns, &state.unknowns, &state.normal.scale());
+        let most = Some(TRIALS_OF_A_ROUND);
+        let end = towards_minimum(exact, &weights, &unknowns, damping, most)?;
+        let state = end.state;
+        damping = end.damping;
+        let moved = relative_change(&unknowns, &state.unknowns, &end.scale);
         unknowns.clone_from(&state.unknowns);
+        let cost = state.normal.cost;
         rest = Some((state, weights));
         if moved < SETTLED {
             converged = true;
+            break;
+        }
+        costs.push(cost);
+        let before = costs.len().checked_sub(ROUNDS_OF_A_FALL + 1);
+        if moved > FAR && before.is_some_and(|before| cost > 0.5 * costs[before]) {
             break;
         }
     }

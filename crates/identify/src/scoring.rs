@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::estimator::{Chart, FIRST_DAMPING, Rest};
+use super::estimator::{Chart, Rest};
+use super::marquardt::{self, Damping};
 use super::normal::Normal;
 use super::objective::{Objective, State, Weights};
 
@@ -47,7 +48,7 @@ pub(super) fn scored(
         coordinates,
         state,
         settled,
-        damping: FIRST_DAMPING,
+        damping: Damping(marquardt::FIRST),
     }
 }
 

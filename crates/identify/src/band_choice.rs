@@ -16,6 +16,7 @@ use super::lines::Lines;
 use super::model::{JointMatrices, JointModel};
 use super::noise::Noise;
 use super::parallel;
+use super::receptances::Receptances;
 use super::used::Chosen;
 
 /// Lines closer than this part of the frequency to a resonance of a substructure are avoided; the thesis stays off its
@@ -93,24 +94,24 @@ pub(super) fn used(
 
 /// Resonances of the substructures of all assemblies at the joint's DOFs, Hz.
 pub(super) fn own_resonances<'a>(all: impl Iterator<Item = &'a Lines>) -> Vec<f64> {
-    let mut own: Vec<f64> = Vec::new();
-    for lines in all {
+    let of_substructure = |&(lines, substructure): &(&Lines, &Receptances)| -> Vec<f64> {
         let hz = &lines.frequency_hz;
-        for substructure in [&lines.a, &lines.b] {
-            let mut functions = vec![Vec::with_capacity(hz.len()); lines.joint_dofs()];
-            for line in 0..hz.len() {
-                let receptance = substructure.at(line);
-                for (dof, function) in functions.iter_mut().enumerate() {
-                    function.push(receptance[(dof, dof)]);
-                }
+        let mut functions = vec![Vec::with_capacity(hz.len()); lines.joint_dofs()];
+        for line in 0..hz.len() {
+            let receptance = substructure.at(line);
+            for (dof, function) in functions.iter_mut().enumerate() {
+                function.push(receptance[(dof, dof)]);
             }
-            let found = functions
-                .iter()
-                .flat_map(|function| resonances(hz, function));
-            own.extend(found.map(|resonance| resonance.frequency_hz));
         }
-    }
-    own
+        let found = functions
+            .iter()
+            .flat_map(|function| resonances(hz, function));
+        found.map(|resonance| resonance.frequency_hz).collect()
+    };
+    let substructures: Vec<(&Lines, &Receptances)> = all
+        .flat_map(|lines| [(lines, &lines.a), (lines, &lines.b)])
+        .collect();
+    parallel::map(&substructures, of_substructure).concat()
 }
 
 /// The bands of each joint; `None` where the assembly cannot be computed.

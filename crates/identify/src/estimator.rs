@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::likelihood::log_variances;
-use super::marquardt::{self, Damping};
+use super::marquardt::{self, Control, Damping, Rest, levenberg_marquardt};
 use super::noise::{Levels, Noise, Size};
 use super::normal::{Normal, TOLERANCE, relative_change};
 use super::objective::{Corrections, Objective, State, Weights};
@@ -103,8 +103,6 @@ const NEGLIGIBLE_GAIN: f64 = 1e-13;
 /// The same where corrections of the substructures follow each step, as a part of a residual's mean square: a hundredth of a
 /// standard deviation.
 const NEGLIGIBLE_GAIN_OF_CORRECTED: f64 = 1e-4;
-/// The same where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
-const HIDDEN_GAIN: f64 = 1e-12;
 /// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
 const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
@@ -317,100 +315,10 @@ pub(super) fn towards_minimum(
     Some(rest)
 }
 
-/// When an iteration ends, and how it begins.
-struct Control {
-    /// Gain that the full step promises, as a fraction of the cost, below which it has come to rest.
-    negligible_gain: f64,
-    damping: Damping,
-    /// Trials of a step.
-    most: usize,
-}
-
 fn most_iterations(objective: &Objective<'_>) -> usize {
     if objective.is_independent() {
         MAX_ITERATIONS
     } else {
         MAX_ITERATIONS_OF_CORRECTED
-    }
-}
-
-/// Where an iteration with held weights came to rest.
-pub(super) struct Rest {
-    pub(super) coordinates: DVector<f64>,
-    pub(super) state: State,
-    pub(super) scale: DVector<f64>,
-    pub(super) settled: bool,
-    /// Damping that the last step left, to go on with.
-    pub(super) damping: Damping,
-}
-
-/// Steps over which the promise of a search that comes to rest falls by more than half.
-const STEPS_OF_A_FALL: usize = 8;
-
-/// Whether what steps promise has all but ceased to fall.
-fn wanders(promises: &[f64]) -> bool {
-    let before = promises.len().checked_sub(STEPS_OF_A_FALL + 1);
-    before.is_some_and(|before| promises.last() > Some(&(0.5 * promises[before])))
-}
-
-/// The iteration from `start` coordinates, at which `state` is.
-fn levenberg_marquardt(
-    objective: &Objective<'_>,
-    weights: &[Weights],
-    chart: &dyn Chart,
-    start: &DVector<f64>,
-    mut state: State,
-    control: Control,
-) -> Rest {
-    let mut coordinates = start.clone();
-    let mut normal = state.normal_in(chart, &coordinates);
-    let Control {
-        negligible_gain,
-        mut damping,
-        most,
-    } = control;
-    let mut settled = false;
-    let mut promises: Vec<f64> = Vec::new();
-    for _ in 0..most {
-        if objective.is_of_many_bolts() && wanders(&promises) {
-            break;
-        }
-        if normal.is_settled(&coordinates, negligible_gain) {
-            settled = true;
-            break;
-        }
-        let trial = normal.step(damping.0).map(|step| {
-            let promised = normal.gain(&step, damping.0);
-            (&coordinates + step, promised)
-        });
-        let improved = trial
-            .as_ref()
-            .map(|(trial, _)| trial)
-            .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
-            .and_then(|trial| {
-                let corrections = Some(Arc::clone(&state.corrections));
-                objective.at(weights, chart.unknowns(trial), corrections)
-            })
-            .filter(|next| next.normal.cost <= state.normal.cost * (1.0 + negligible_gain));
-        if let (Some((trial, promised)), Some(next)) = (trial, improved) {
-            coordinates = trial;
-            damping = damping.taken((state.normal.cost - next.normal.cost) / promised);
-            state = next;
-            normal = state.normal_in(chart, &coordinates);
-            promises.extend(normal.promise());
-        } else {
-            match damping.refused() {
-                Some(more) => damping = more,
-                None => break,
-            }
-        }
-    }
-    settled = settled || normal.is_settled(&coordinates, HIDDEN_GAIN);
-    Rest {
-        scale: normal.scale(),
-        coordinates,
-        state,
-        settled,
-        damping: damping.for_the_next(),
     }
 }

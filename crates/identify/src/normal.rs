@@ -134,6 +134,29 @@ mod tests {
     }
 
     #[test]
+    fn the_gain_of_a_damped_step_is_that_of_the_residuals() {
+        // r(δ) = r − J δ, whose squares are summed as they stand
+        let jacobian = dmatrix![2.0, 0.3; -1.0, 4.0; 0.5, 1.5];
+        let residual = dvector![1.0, -2.0, 0.7];
+        let normal = Normal {
+            cost: residual.norm_squared(),
+            ..normal(
+                jacobian.transpose() * &jacobian,
+                jacobian.transpose() * &residual,
+            )
+        };
+        for damping in [0.0, 1e-3, 0.5, 30.0] {
+            let step = normal.step(damping).unwrap();
+            let gained = normal.cost - (&residual - &jacobian * &step).norm_squared();
+            let promised = normal.gain(&step, damping);
+            assert!(
+                (promised / gained - 1.0).abs() < 1e-12,
+                "{damping}: {promised}"
+            );
+        }
+    }
+
+    #[test]
     fn an_unknown_that_is_zero_but_for_rounding_does_not_move() {
         let normal = normal(dmatrix![4.0, 0.0; 0.0, 1.0], dvector![4e-12, -1e-15]);
         assert!(normal.is_settled(&dvector![1.0, 1e-15], 0.0));

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::estimator::{Chart, Rest};
-use super::marquardt::{self, Damping};
+use super::estimator::Chart;
+use super::marquardt::{self, Damping, Rest};
 use super::normal::Normal;
 use super::objective::{Objective, State, Weights};
 

@@ -23,13 +23,17 @@ pub fn resonances(frequency_hz: &[f64], function: &[Complex64]) -> Vec<Resonance
         .map(|(&frequency, value)| (frequency, value.norm().log10()))
         .filter(|(frequency, level)| frequency.is_finite() && level.is_finite())
         .collect();
+    let left = valleys(level.iter().map(|point| point.1));
+    let right = valleys(level.iter().rev().map(|point| point.1));
+    // height above the higher of the valleys on either side
+    let prominence = |peak: usize| level[peak].1 - left[peak].max(right[level.len() - 1 - peak]);
     level
         .windows(3)
         .enumerate()
         .filter_map(|(before, window)| match *window {
             [left, peak, right] if peak.1 > left.1 && peak.1 >= right.1 => Some(Resonance {
                 frequency_hz: vertex(left, peak, right),
-                prominence_decades: prominence(&level, before + 1),
+                prominence_decades: prominence(before + 1),
             }),
             _ => None,
         })
@@ -37,17 +41,19 @@ pub fn resonances(frequency_hz: &[f64], function: &[Complex64]) -> Vec<Resonance
         .collect()
 }
 
-/// Height above the higher of the lowest points on either side, each side reaching to the next higher point.
-fn prominence(level: &[(f64, f64)], peak: usize) -> f64 {
-    let top = level[peak].1;
-    let valley = |side: &mut dyn Iterator<Item = &(f64, f64)>| {
-        side.map(|point| point.1)
-            .take_while(|&point| point <= top)
-            .fold(top, f64::min)
+/// Of each point the lowest one before it, as far as the next higher one.
+fn valleys(levels: impl Iterator<Item = f64>) -> Vec<f64> {
+    // points that no later one is as high as, each with the lowest since the one before it
+    let mut higher: Vec<(f64, f64)> = Vec::new();
+    let valley = |level: f64| {
+        let mut lowest = level;
+        while let Some((_, before)) = higher.pop_if(|(other, _)| *other <= level) {
+            lowest = lowest.min(before);
+        }
+        higher.push((level, lowest));
+        lowest
     };
-    let left = valley(&mut level[..peak].iter().rev());
-    let right = valley(&mut level[peak + 1..].iter());
-    top - left.max(right)
+    levels.map(valley).collect()
 }
 
 /// Where the parabola through three points has its vertex; the middle one is above the first and not below the last.

@@ -96,16 +96,11 @@ pub(super) fn used(
 pub(super) fn own_resonances<'a>(all: impl Iterator<Item = &'a Lines>) -> Vec<f64> {
     let of_substructure = |&(lines, substructure): &(&Lines, &Receptances)| -> Vec<f64> {
         let hz = &lines.frequency_hz;
-        let mut functions = vec![Vec::with_capacity(hz.len()); lines.joint_dofs()];
-        for line in 0..hz.len() {
-            let receptance = substructure.at(line);
-            for (dof, function) in functions.iter_mut().enumerate() {
-                function.push(receptance[(dof, dof)]);
-            }
-        }
-        let found = functions
-            .iter()
-            .flat_map(|function| resonances(hz, function));
+        let found = (0..lines.joint_dofs()).flat_map(|dof| {
+            let function = substructure.function(dof, dof);
+            let values: Vec<Complex64> = (0..hz.len()).map(|line| function.at(line)).collect();
+            resonances(hz, &values)
+        });
         found.map(|resonance| resonance.frequency_hz).collect()
     };
     let substructures: Vec<(&Lines, &Receptances)> = all

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::likelihood::log_variances;
-use super::marquardt::{self, Control, Damping, Rest, levenberg_marquardt};
+use super::marquardt::{Control, Damping, levenberg_marquardt};
 use super::noise::{Levels, Noise, Size};
 use super::normal::{Normal, TOLERANCE, relative_change};
 use super::objective::{Corrections, Objective, State, Weights};
@@ -106,9 +106,9 @@ const NEGLIGIBLE_GAIN_OF_CORRECTED: f64 = 1e-4;
 /// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
 const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
-const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
+pub(super) const GAIN_BEFORE_RENEWAL: f64 = 1e-6;
 /// Promised gain below which the weights follow each step, as long as the promise falls with each …
-const NEAR: f64 = 1e-3;
+const NEAR: f64 = 1e-2;
 /// … to this part, at least.
 const FALL: f64 = 0.1;
 
@@ -134,7 +134,7 @@ pub(super) fn estimate(
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
     let mut unrest = f64::INFINITY;
-    let mut damping = Damping(marquardt::FIRST);
+    let mut damping = Damping::FIRST;
     for round in 0..MAX_REWEIGHTINGS {
         if !estimates_level {
             let near = follow(objective, levels, chart, (coordinates, weights, state))?;
@@ -293,26 +293,14 @@ pub(super) fn minimum(
     weights: &[Weights],
     start: &DVector<f64>,
 ) -> Option<State> {
-    let rest = towards_minimum(objective, weights, start, Damping(marquardt::FIRST), None)?;
-    Some(rest.state)
-}
-
-/// Goes there from `start`, with as many trials of a step as `most` allows.
-pub(super) fn towards_minimum(
-    objective: &Objective<'_>,
-    weights: &[Weights],
-    start: &DVector<f64>,
-    damping: Damping,
-    most: Option<usize>,
-) -> Option<Rest> {
     let state = objective.at(weights, start.clone(), None)?;
     let control = Control {
         negligible_gain: GAIN_BEFORE_RENEWAL,
-        damping,
-        most: most.unwrap_or_else(|| most_iterations(objective)),
+        damping: Damping::FIRST,
+        most: most_iterations(objective),
     };
     let rest = levenberg_marquardt(objective, weights, &Free, start, state, control);
-    Some(rest)
+    Some(rest.state)
 }
 
 fn most_iterations(objective: &Objective<'_>) -> usize {

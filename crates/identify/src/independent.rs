@@ -134,7 +134,7 @@ fn renew_rows<const N: usize, const E: usize>(
                     }
                     let of_mean = variance * Reals::all(counts[e].recip());
                     let places = variances[at + e..].iter_mut().step_by(size);
-                    for (place, of_mean) in places.zip(of_mean.0) {
+                    for (place, of_mean) in places.zip(of_mean.lanes()) {
                         *place = of_mean;
                     }
                     one * Reals::all(counts[e])
@@ -193,8 +193,8 @@ fn compute<const N: usize>(
 fn variance<const N: usize>(strip: &Strip<'_, N>, e: usize, level: Size, power: Reals) -> Reals {
     let floor = strip.block.entries[e].floor;
     if strip.block.known.is_empty() {
-        return Reals::of(|lane| of_one(level, floor, None, power.0[lane]));
+        return Reals::of(|lane| of_one(level, floor, None, power.lane(lane)));
     }
     let known = strip.real(&strip.block.known, e);
-    Reals::of(|lane| of_one(level, floor, Some(known.0[lane]), power.0[lane]))
+    Reals::of(|lane| of_one(level, floor, Some(known.lane(lane)), power.lane(lane)))
 }

@@ -1,18 +1,19 @@
 //! Numbers of several lines side by side, so that one instruction of the processor works on more than one line.
 //!
-//! Plain arrays: the compiler makes vector instructions of the loops. Each lane is computed as it would be alone, so results
-//! do not depend on the processor.
+//! Each lane is computed as it would be alone, so results do not depend on the processor. Of plain arrays the compiler makes vectors
+//! of whatever stands side by side in memory, which often is not the lanes.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use num_complex::Complex64;
+use wide::f64x4;
 
 /// Lines side by side.
-pub(super) const LANES: usize = 2;
+pub(super) const LANES: usize = 4;
 
 /// A real number of each of several lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Reals(pub(super) [f64; LANES]);
+pub(super) struct Reals(f64x4);
 
 /// A complex number of each of several lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,14 +66,18 @@ impl Number for Complexes {
         im: Reals::ZERO,
     };
     const ONE: Self = Self {
-        re: Reals([1.0; LANES]),
+        re: Reals(f64x4::ONE),
         im: Reals::ZERO,
     };
 
     #[inline(always)]
     fn reciprocal(self) -> Option<Self> {
         let size = self.norm_sqr();
-        if !size.0.iter().all(|size| size.is_finite() && *size > 0.0) {
+        if !size
+            .lanes()
+            .iter()
+            .all(|size| size.is_finite() && *size > 0.0)
+        {
             return None;
         }
         Some(Self {
@@ -88,41 +93,68 @@ impl Number for Complexes {
 }
 
 impl Reals {
-    pub(super) const ZERO: Self = Self([0.0; LANES]);
+    pub(super) const ZERO: Self = Self(f64x4::ZERO);
 
     /// The same number in every lane.
     #[inline(always)]
     pub(super) fn all(value: f64) -> Self {
-        Self([value; LANES])
+        Self(f64x4::splat(value))
     }
 
     /// The number of each lane.
     #[inline(always)]
     pub(super) fn of(value: impl Fn(usize) -> f64) -> Self {
-        Self(std::array::from_fn(value))
+        Self(f64x4::new(std::array::from_fn(value)))
+    }
+
+    #[inline(always)]
+    pub(super) fn lanes(self) -> [f64; LANES] {
+        self.0.to_array()
+    }
+
+    /// The number of one lane.
+    #[inline(always)]
+    pub(super) fn lane(self, lane: usize) -> f64 {
+        self.0.as_array()[lane]
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, lane: usize, value: f64) {
+        self.0.as_mut_array()[lane] = value;
+    }
+
+    /// `yes` in the lanes where this is above zero, `no` in the others.
+    #[inline(always)]
+    pub(super) fn where_positive(self, yes: Self, no: Self) -> Self {
+        Self(self.0.simd_gt(f64x4::ZERO).select(yes.0, no.0))
+    }
+
+    /// The larger one; in lanes where one is no number it may be either.
+    #[inline(always)]
+    pub(super) fn at_least(self, least: Self) -> Self {
+        Self(self.0.fast_max(least.0))
+    }
+
+    /// The smaller one; in lanes where one is no number it may be either.
+    #[inline(always)]
+    pub(super) fn at_most(self, most: Self) -> Self {
+        Self(self.0.fast_min(most.0))
     }
 
     /// The sum over the lanes.
     #[inline(always)]
     pub(super) fn sum(self) -> f64 {
-        self.0.iter().sum()
+        self.lanes().iter().sum()
     }
 
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
-        Self(self.0.map(f64::sqrt))
+        Self(self.0.sqrt())
     }
 
     #[inline(always)]
     pub(super) fn reciprocal(self) -> Self {
-        Self(self.0.map(f64::recip))
-    }
-
-    #[inline(always)]
-    fn with(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|lane| {
-            operation(self.0[lane], other.0[lane])
-        }))
+        Self(f64x4::ONE / self.0)
     }
 }
 
@@ -140,7 +172,7 @@ impl Complexes {
     /// The number of one lane.
     #[inline(always)]
     pub(super) fn lane(self, lane: usize) -> Complex64 {
-        Complex64::new(self.re.0[lane], self.im.0[lane])
+        Complex64::new(self.re.lane(lane), self.im.lane(lane))
     }
 
     #[inline(always)]
@@ -179,7 +211,7 @@ impl Add for Reals {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        self.with(other, |a, b| a + b)
+        Self(self.0 + other.0)
     }
 }
 
@@ -188,7 +220,7 @@ impl Sub for Reals {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self.with(other, |a, b| a - b)
+        Self(self.0 - other.0)
     }
 }
 
@@ -197,7 +229,7 @@ impl Mul for Reals {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.with(other, |a, b| a * b)
+        Self(self.0 * other.0)
     }
 }
 
@@ -206,7 +238,7 @@ impl std::ops::Div for Reals {
 
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        self.with(other, |a, b| a / b)
+        Self(self.0 / other.0)
     }
 }
 
@@ -215,7 +247,7 @@ impl Neg for Reals {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|value| -value))
+        Self(-self.0)
     }
 }
 
@@ -306,7 +338,7 @@ mod tests {
             assert_eq!((-many_a).lane(lane), -a);
             assert_eq!(many_a.conj().lane(lane), a.conj());
             assert_eq!(many_a.conj_times(many_b).lane(lane), a.conj() * b);
-            assert_eq!(many_a.norm_sqr().0[lane], a.norm_sqr());
+            assert_eq!(many_a.norm_sqr().lane(lane), a.norm_sqr());
             assert_eq!(inverse.lane(lane), b.reciprocal().unwrap());
         }
     }

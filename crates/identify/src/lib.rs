@@ -21,6 +21,7 @@ mod draw;
 mod error;
 mod estimator;
 mod finals;
+mod formed;
 mod from_modes;
 mod glance;
 mod group;

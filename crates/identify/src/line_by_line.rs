@@ -7,6 +7,7 @@ use bolted_joint_frf::structure::{ComplexMatrix, Partition};
 use num_complex::Complex64;
 
 use super::decoupling;
+use super::formed::Formed;
 use super::kernel::{Small, dot, filled, for_dofs, inverse, vector};
 use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Layout;
@@ -162,12 +163,12 @@ fn with_dofs<const N: usize>(lines: &Lines, layout: &Layout) -> Vec<Option<Compl
     let used = layout.used_dofs();
     let dofs = filled::<N>(lines.joint_dofs());
     let is_fixed = lines.points.len() > dofs && used.len() == dofs;
-    let mut least_squares = LeastSquares::<N>::default();
+    let mut least_squares = LeastSquares::<N>::new(lines);
     let mut decoupled = Vec::with_capacity(count);
     for first in (0..count).step_by(LANES) {
         let last = LANES.min(count - first) - 1;
         let index: [usize; LANES] = std::array::from_fn(|lane| first + lane.min(last));
-        let found = is_fixed.then(|| least_squares.solve(lines, index));
+        let found = is_fixed.then(|| least_squares.solve(index));
         let found = found.flatten();
         decoupled.extend(index[..=last].iter().enumerate().map(|(lane, &line)| {
             let Some(found) = found else {
@@ -201,29 +202,55 @@ fn is_finite(matrix: &ComplexMatrix) -> bool {
 }
 
 /// The least-squares solution of (3.21) from more points than joint DOFs, for lines side by side.
-#[derive(Default)]
-struct LeastSquares<const N: usize> {
+struct LeastSquares<'l, const N: usize> {
+    lines: &'l Lines,
+    /// What H_jj comes from, and those between the joint's DOFs and the points of B, …
+    formed: [Formed<'l>; 2],
+    /// … and both of the lines that are solved, row by row.
+    a: Vec<Complexes>,
+    b: Vec<Complexes>,
     left: PseudoInverse<N>,
     right: PseudoInverse<N>,
 }
 
-impl<const N: usize> LeastSquares<N> {
+impl<'l, const N: usize> LeastSquares<'l, N> {
+    fn new(lines: &'l Lines) -> Self {
+        Self {
+            lines,
+            formed: [Formed::of(&lines.a), Formed::of(&lines.b)],
+            a: Vec::new(),
+            b: Vec::new(),
+            left: PseudoInverse::default(),
+            right: PseudoInverse::default(),
+        }
+    }
+
     /// `None` where columns depend on each other, or a matrix is singular, at any of the lines.
-    fn solve(&mut self, lines: &Lines, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
-        let a = index.map(|line| lines.a.at(line));
-        let b = index.map(|line| lines.b.at(line));
-        let (a, b) = (a.each_ref().map(|a| &**a), b.each_ref().map(|b| &**b));
+    fn solve(&mut self, index: [usize; LANES]) -> Option<Small<N, Complexes>> {
+        let Self { lines, formed, .. } = self;
         let assembly = index.map(|line| &lines.assembly[line]);
         let (dofs, points) = (filled::<N>(lines.joint_dofs()), lines.points.len());
-        let of = |matrix: [&ComplexMatrix; LANES], i, j| Complexes::of(|lane| matrix[lane][(i, j)]);
-        self.left.of((points, dofs), |p, i| of(b, dofs + p, i))?;
-        self.right.of((points, dofs), |p, i| of(b, i, dofs + p))?;
+        formed[0].at(index, &mut self.a);
+        formed[1].at(index, &mut self.b);
+        let [of_a, of_b] = [lines.a.size(), lines.b.size()];
+        let a = |i: usize, j: usize| self.a[i * of_a + j];
+        let b = |i: usize, j: usize| self.b[i * of_b + j];
+        let left = &mut self.left;
+        left.of((points, dofs), |p, i| b(dofs + p, i))?;
+        let right = match formed[1].is_symmetric() {
+            true => &*left,
+            false => {
+                self.right.of((points, dofs), |p, i| b(i, dofs + p))?;
+                &self.right
+            }
+        };
         // Z⁻¹ = H_sk⁺ (H_ss − H^C_ss) H_ks⁺
         let mut z_inverse = [[Complexes::ZERO; N]; N];
-        for (q, right) in self.right.columns.iter().enumerate() {
+        for (q, right) in right.columns.iter().enumerate() {
             let mut product = [Complexes::ZERO; N];
-            for (p, left) in self.left.columns.iter().enumerate() {
-                let difference = of(b, dofs + p, dofs + q) - of(assembly, p, q);
+            for (p, left) in left.columns.iter().enumerate() {
+                let measured = Complexes::of(|lane| assembly[lane][(p, q)]);
+                let difference = b(dofs + p, dofs + q) - measured;
                 for i in 0..dofs {
                     product[i] += left[i] * difference;
                 }
@@ -238,7 +265,7 @@ impl<const N: usize> LeastSquares<N> {
         let mut z = inverse(dofs, z_inverse)?;
         for i in 0..dofs {
             for j in 0..dofs {
-                z[i][j] -= of(a, i, j) + of(b, i, j);
+                z[i][j] -= a(i, j) + b(i, j);
             }
         }
         inverse(dofs, z)
@@ -286,7 +313,7 @@ impl<const N: usize> PseudoInverse<N> {
             }
             let left = self.length(i);
             let is_independent = |&left: &f64| left > DEPENDENT && left.is_finite();
-            if !left.0.iter().all(is_independent) {
+            if !left.lanes().iter().all(is_independent) {
                 return None;
             }
             let scale = left.reciprocal();

@@ -314,6 +314,14 @@ pub fn identify_lines(
     model: JointModel,
     options: &Options<'_>,
 ) -> Result<LinesEstimate, IdentifyError> {
+    parallel::among_them(|| identified(all, model, options))
+}
+
+fn identified(
+    all: &[Lines],
+    model: JointModel,
+    options: &Options<'_>,
+) -> Result<LinesEstimate, IdentifyError> {
     let first = all.iter().find(|lines| !lines.frequency_hz.is_empty());
     let dofs = first.map_or(0, Lines::joint_dofs);
     let layout = Layout::new(model, &options.bolts, dofs);

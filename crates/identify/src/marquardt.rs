@@ -7,8 +7,6 @@ use nalgebra::DVector;
 use super::estimator::Chart;
 use super::objective::{Objective, State, Weights};
 
-/// Damping of the first step, a fraction of the diagonal of JᵀJ.
-pub(super) const FIRST: f64 = 1e-3;
 /// Less than this changes no step.
 const LEAST: f64 = 1e-15;
 /// After a refused step: less than this would lead to the same place again.
@@ -21,11 +19,28 @@ const FAIR: f64 = 0.25;
 /// Promised gain, as a fraction of the cost, that is none where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
 const HIDDEN_GAIN: f64 = 1e-12;
 
-/// The damping of an iteration.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Damping(pub(super) f64);
+/// The damping of an iteration, a fraction of the diagonal of JᵀJ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Damping {
+    pub(super) value: f64,
+    /// By how much the next refused step raises it.
+    raise: f64,
+}
+
+/// By how much the first refused step raises it, and by how much more each further one.
+const RAISE: f64 = 10.0;
 
 impl Damping {
+    /// That of the first step.
+    pub(super) const FIRST: Self = Self::of(1e-3);
+
+    const fn of(value: f64) -> Self {
+        Self {
+            value,
+            raise: RAISE,
+        }
+    }
+
     /// After a step that was taken and gained this part of what it promised.
     pub(super) fn taken(self, part_of_promise: f64) -> Self {
         let factor = match part_of_promise {
@@ -33,18 +48,21 @@ impl Damping {
             part if part > FAIR => 0.2,
             _ => 1.0,
         };
-        Self((self.0 * factor).max(LEAST))
+        Self::of((self.value * factor).max(LEAST))
     }
 
-    /// After a step that was refused; `None` where no shorter one is worth a trial.
+    /// After a refused step; `None` where no shorter one is worth a trial.
     pub(super) fn refused(self) -> Option<Self> {
-        let more = (10.0 * self.0).max(LEAST_THAT_SHORTENS);
-        (more <= MOST).then_some(Self(more))
+        let more = (self.raise * self.value).max(LEAST_THAT_SHORTENS);
+        (more <= MOST).then_some(Self {
+            value: more,
+            raise: self.raise * RAISE,
+        })
     }
 
     /// What the next iteration begins with.
     pub(super) fn for_the_next(self) -> Self {
-        Self(self.0.min(FIRST))
+        Self::of(self.value.min(Self::FIRST.value))
     }
 }
 
@@ -102,8 +120,8 @@ pub(super) fn levenberg_marquardt(
             settled = true;
             break;
         }
-        let trial = normal.step(damping.0).map(|step| {
-            let promised = normal.gain(&step, damping.0);
+        let trial = normal.step(damping.value).map(|step| {
+            let promised = normal.gain(&step, damping.value);
             (&coordinates + step, promised)
         });
         let improved = trial
@@ -144,21 +162,23 @@ mod tests {
 
     #[test]
     fn a_model_that_keeps_its_promise_is_trusted_and_one_that_does_not_is_not() {
-        let damping = Damping(FIRST);
-        assert!(damping.taken(1.0).0 < damping.taken(0.5).0);
-        assert!(damping.taken(0.1).0 == FIRST);
-        assert!(damping.refused().unwrap().0 > FIRST);
-        assert!(Damping(LEAST).taken(1.0).0 == LEAST);
+        let damping = Damping::FIRST;
+        assert!(damping.taken(1.0).value < damping.taken(0.5).value);
+        assert_eq!(damping.taken(0.1), damping);
+        assert!(damping.refused().unwrap().value > damping.value);
+        assert_eq!(Damping::of(LEAST).taken(1.0).value, LEAST);
     }
 
     #[test]
     fn few_refusals_shorten_a_step_to_nothing() {
-        let mut damping = Damping(LEAST);
+        let mut damping = Damping::of(LEAST);
         let mut count = 0;
         while let Some(more) = damping.refused() {
             damping = more;
             count += 1;
         }
-        assert!(count < 20, "{count}");
+        assert!(count < 8, "{count}");
+        // a step that is taken begins anew
+        assert_eq!(damping.taken(0.1), Damping::of(damping.value));
     }
 }

@@ -35,8 +35,17 @@ impl Act {
 pub(super) struct Action {
     pub(super) block: usize,
     pub(super) act: Act,
-    /// Entries of that block that it moves, each with its place among the rows of the cluster.
-    pub(super) entries: Vec<(usize, usize)>,
+    /// Entries of that block that it moves.
+    pub(super) entries: Vec<Moved>,
+}
+
+/// An entry that a motion moves.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moved {
+    /// Its two points.
+    pub(super) points: (usize, usize),
+    /// Its place among the rows of the cluster.
+    pub(super) at: usize,
 }
 
 /// Motions that have errors in common.
@@ -48,6 +57,8 @@ pub(super) struct Cluster {
     pub(super) motions: Vec<Vec<Action>>,
     /// Entries of all blocks that it moves, ascending.
     pub(super) rows: Vec<usize>,
+    /// Whether these are the first ones of all, without a gap.
+    pub(super) is_dense: bool,
     /// Lower triangle of Σ_ζ, row by row: each entry is a sum over sources, with the products of their shares.
     pub(super) covariance: Vec<Vec<(usize, f64)>>,
 }
@@ -163,7 +174,15 @@ impl Cluster {
             Action {
                 block,
                 act,
-                entries: own.map(|entry| (entry, at(entry))).collect(),
+                entries: own
+                    .map(|entry| {
+                        let Entry { row, column, .. } = blocks[block].entries[entry];
+                        Moved {
+                            points: (row, column),
+                            at: at(entry),
+                        }
+                    })
+                    .collect(),
             }
         };
         let pairs = (0..motions.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
@@ -178,6 +197,7 @@ impl Cluster {
         });
         Self {
             first,
+            is_dense: rows.last().is_none_or(|last| last + 1 == rows.len()),
             covariance: covariance.collect(),
             motions: motions
                 .iter()

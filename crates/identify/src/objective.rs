@@ -29,7 +29,7 @@ const RIGID: f64 = 1e6;
 const DOFS_OF_TWO_BOLTS: usize = 4;
 /// Lines with corrections that one processor takes at a time. Sums are formed piece by piece, so that they do not depend on
 /// how many processors there are.
-pub(super) const PIECE: usize = 64;
+pub(super) const PIECE: usize = 128;
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Variances of one group.

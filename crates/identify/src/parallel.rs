@@ -1,5 +1,6 @@
 //! Independent pieces of work on all processors, in a result that does not depend on how many there are.
 
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -53,7 +54,17 @@ fn by_index<R: Send>(count: usize, work: &(dyn Fn(usize) -> R + Sync)) -> Vec<R>
 
 /// Does `work` of each index below `count` on all processors, one index at a time.
 fn share(count: usize, work: &(dyn Fn(usize) + Sync)) {
-    (0..count).into_par_iter().with_max_len(1).for_each(work);
+    let pieces = (0..count).into_par_iter().with_max_len(1);
+    pieces.for_each(|index| as_piece(|| work(index)));
+}
+
+/// Does work that has parts to share out as one of the processors that these are shared among: one that waited for them from
+/// outside would have to be woken after each.
+pub fn among_them<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    if IS_IN_PIECE.get() {
+        return work();
+    }
+    rayon::scope(|_| work())
 }
 
 /// What two pieces of work come to.
@@ -64,18 +75,42 @@ pub fn both<A: Send, B: Send>(
     if is_alone(2) {
         return (one(), other());
     }
-    rayon::join(one, other)
+    rayon::join(|| as_piece(one), || as_piece(other))
+}
+
+thread_local! {
+    static IS_IN_PIECE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does a piece of shared work.
+fn as_piece<R>(work: impl FnOnce() -> R) -> R {
+    let before = IS_IN_PIECE.replace(true);
+    let result = work();
+    IS_IN_PIECE.set(before);
+    result
 }
 
 /// Whether there is nothing to share: within a piece of shared work all processors are busy with the others, and one that
 /// waited for its parts would begin more of the others before it ends.
 fn is_alone(pieces: usize) -> bool {
-    pieces < 2 || rayon::current_thread_index().is_some()
+    pieces < 2 || IS_IN_PIECE.get()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{map, map_each};
+    use super::{among_them, is_alone, map, map_each};
+
+    #[test]
+    fn what_is_shared_out_is_not_shared_out_again() {
+        let alone = || map(&[0, 1, 2], |_| is_alone(2));
+        assert!(!is_alone(2));
+        assert_eq!(alone(), [true; 3]);
+        assert_eq!(
+            among_them(|| (is_alone(2), alone())),
+            (false, vec![true; 3])
+        );
+        assert_eq!(map(&[0, 1], |_| among_them(alone)), [[true; 3]; 2]);
+    }
 
     #[test]
     fn results_come_in_the_order_of_their_items() {

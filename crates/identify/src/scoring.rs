@@ -9,7 +9,7 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::estimator::Chart;
-use super::marquardt::{self, Damping, Rest};
+use super::marquardt::{Damping, Rest};
 use super::normal::Normal;
 use super::objective::{Objective, State, Weights};
 
@@ -48,7 +48,7 @@ pub(super) fn scored(
         coordinates,
         state,
         settled,
-        damping: Damping(marquardt::FIRST),
+        damping: Damping::FIRST,
     }
 }
 

@@ -13,7 +13,7 @@ use super::layout::Place;
 use super::noise::Noise;
 use super::objective::Objective;
 use super::strip::ENTRIES_OF_ONE;
-use super::trials::{SAME_MISFIT, best_trials, rank, try_starts};
+use super::trials::{SAME_MISFIT, best_trials, rank, same, try_starts};
 
 /// Starts of the grid between two looks at whether the fit is beyond doubt.
 pub(super) const STARTS_AT_A_TIME: usize = 4;
@@ -67,8 +67,16 @@ pub(super) fn best(
     let guesses = [None, candidates.last().cloned()];
     candidates.extend(data.thinned.linear_starts(entries, &guesses));
     let mut ways = Vec::new();
-    let mut trials = try_starts(data, entries, noise, &candidates, &mut ways);
-    let mut tried = candidates.len();
+    let mut tried = match effort {
+        Effort::Whole => candidates.len().min(ENOUGH),
+        Effort::BesideBudget | Effort::Related => candidates.len(),
+    };
+    let mut trials = try_starts(data, entries, noise, &candidates[..tried], &mut ways);
+    if tried < candidates.len() && !agree(&trials, noise) {
+        let others = &candidates[tried..];
+        trials.extend(try_starts(data, entries, noise, others, &mut ways));
+        tried = candidates.len();
+    }
     let search = |trials: &[Estimate], known: Option<Finals>| match used {
         Some(used) => Some(finalists(used, entries, noise, trials, known)),
         None => finalists_of_own_lines(data, entries, noise, trials, known),
@@ -79,7 +87,9 @@ pub(super) fn best(
     }
     let mut finals = search(&trials, None);
     if effort != Effort::Related && !gives_up {
-        for part in data.thinned.grid(entries).chunks(STARTS_AT_A_TIME) {
+        let mut others = candidates.split_off(tried);
+        others.extend(data.thinned.grid(entries));
+        for part in others.chunks(STARTS_AT_A_TIME) {
             let is_enough = |finals: &Finals| {
                 is_certain(&trials, finals) || is_settled(&trials, finals, entries)
             };
@@ -118,6 +128,21 @@ pub(super) fn best(
         agreeing,
         used: Arc::clone(&finals.used),
     })
+}
+
+/// Starts that are enough if they agree on a minimum that leaves noise.
+const ENOUGH: usize = 2;
+/// Most of the variance of stated noise that it leaves.
+const NOISE: f64 = 1.5;
+
+/// Whether all trials ended at one minimum that leaves noise.
+fn agree(trials: &[Estimate], noise: &Noise) -> bool {
+    let leaves_noise = |trial: &Estimate| {
+        let chi = trial.reduced_chi_squared();
+        trial.converged && chi.is_some_and(|chi| chi < NOISE)
+    };
+    let are_one = trials.windows(2).all(|pair| same(&pair[0], &pair[1]));
+    noise.is_stated() && trials.len() == ENOUGH && are_one && trials.iter().all(leaves_noise)
 }
 
 /// The best estimate; of several that explain the data equally well, as when there are no more numbers than unknowns, the

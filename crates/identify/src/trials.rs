@@ -74,18 +74,19 @@ pub(super) fn try_starts(
     let left = |one: &Estimate| one.cost / one.measurements as f64;
     let known = ways.iter().map(|way| &way.robust).chain(&new);
     let least = known.map(left).fold(f64::INFINITY, f64::min);
-    let ends = parallel::map(&new, |robust| {
-        if left(robust) > COMPARABLE * least {
-            return None;
-        }
+    let (comparable, others): (Vec<Estimate>, Vec<Estimate>) = new
+        .into_iter()
+        .partition(|robust| left(robust) <= COMPARABLE * least);
+    let ends = parallel::map(&comparable, |robust| {
         let used = data.few_near(entries, robust.place());
         let few = used.assemblies.objective(entries).as_searched();
         let (levels, start) = (Some(robust.levels), &robust.unknowns);
         let end = estimate(&few, noise, levels, &Free, start, None)?;
         Some(end.without_corrections())
     });
-    let led = new.into_iter().zip(ends);
-    ways.extend(led.map(|(robust, end)| Way { robust, end }));
+    let led = comparable.into_iter().zip(ends);
+    let left = others.into_iter().map(|robust| (robust, None));
+    ways.extend(led.chain(left).map(|(robust, end)| Way { robust, end }));
     let end = |one: &Estimate| {
         let way = ways.iter().find(|way| same(&way.robust, one))?;
         way.end.clone()

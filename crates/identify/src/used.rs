@@ -171,6 +171,11 @@ fn motion<const N: usize>(
     let dofs = filled::<N>(block.dofs);
     let motions = FreeMotions::of(group, number);
     let scale = &block.dynamic_stiffness;
+    let terms = || motions.iter().flat_map(|motion| &motion.covariance);
+    let mut acting: Vec<usize> = terms().map(|&(source, _)| source).collect();
+    acting.sort_unstable();
+    acting.dedup();
+    let mut variances = vec![0.0; group.sources.len()];
     let of_line = |line: usize| {
         let stiffness = complex_stiffness::<N>(entries, unknowns, block.omega[line]);
         let free = block.free_at(line);
@@ -204,11 +209,15 @@ fn motion<const N: usize>(
             }
             sum
         };
-        let variance = |source: usize| source_variance(&group.sources[source], levels, line);
+        for &source in &acting {
+            variances[source] = source_variance(&group.sources[source], levels, line);
+        }
         let mut power = 0.0;
         for motion in &motions {
             let terms = motion.covariance.iter();
-            let covariance: f64 = terms.map(|(source, share)| share * variance(*source)).sum();
+            let covariance: f64 = terms
+                .map(|(source, share)| share * variances[*source])
+                .sum();
             power += covariance * product(motion.one, motion.other);
         }
         power.sqrt()

@@ -8,6 +8,7 @@ use nalgebra::DVector;
 
 use super::group::{Group, Side, Source};
 use super::independent;
+use super::lanes::{Complexes, LANES, Reals};
 use super::line::Line;
 use super::noise::{Floor, Levels, Noise, Of, Sample, Size, most_likely_level};
 use super::normal::Normal;
@@ -140,6 +141,19 @@ pub(super) fn of_one(level: Size, floor: Floor, known: Option<f64>, power: f64) 
     if variance < least { least } else { variance }
 }
 
+/// The same at lines side by side.
+#[inline(always)]
+pub(super) fn of_lanes(level: Size, floor: Floor, known: Option<Reals>, power: Reals) -> Reals {
+    let least = Reals::all(LEAST_RELATIVE * LEAST_RELATIVE) * power;
+    let variance = match known {
+        Some(known) => known * power,
+        None => {
+            Reals::all(level.relative * level.relative) * power + Reals::all(floor.variance(level))
+        }
+    };
+    variance.at_least(least)
+}
+
 fn add_source(
     sample: &mut Sample,
     source: &Source,
@@ -217,6 +231,24 @@ pub(super) fn source_variance(source: &Source, levels: Levels, line: usize) -> f
     variance / f64::from(source.count)
 }
 
+/// The same at lines side by side.
+#[inline(always)]
+pub(super) fn source_variance_of_lanes(
+    source: &Source,
+    levels: Levels,
+    lines: [usize; LANES],
+) -> Reals {
+    let power = Complexes::of(|lane| source.value_at(lines[lane])).norm_sqr();
+    let variance = if source.known.is_empty() {
+        let level = levels.of(Of::Substructure(source.side));
+        let relative = Reals::all(level.relative * level.relative);
+        relative * power + Reals::all(source.floor.variance(level))
+    } else {
+        Reals::of(|lane| source.known[lines[lane]]) * power
+    };
+    variance / Reals::all(f64::from(source.count))
+}
+
 /// One entry of one block at one line.
 struct EntryView {
     /// Index among the entries of all blocks of the group.
@@ -243,6 +275,17 @@ pub(super) fn held_power(power: f64, measured: f64) -> f64 {
     } else {
         power
     }
+}
+
+/// The same at lines side by side.
+#[inline(always)]
+pub(super) fn held_powers(computed: Complexes, measured: Complexes) -> Reals {
+    let (power, measured) = (computed.norm_sqr(), measured.norm_sqr());
+    let most_apart = Reals::all(MOST_APART);
+    // in this order a power that is no number stays none
+    let held = (measured / most_apart).at_least(power);
+    let held = (measured * most_apart).at_most(held);
+    measured.where_positive(held, power)
 }
 
 fn for_each_entry(group: &Group, line: &Line<'_>, mut visit: impl FnMut(EntryView)) {

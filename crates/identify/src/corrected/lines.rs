@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::super::kernel::{Small, filled, matrix, vector};
 use super::super::lanes::{Complexes, LANES, Number, Reals};
 use super::super::motions::place;
-use super::super::weights::source_variance;
+use super::super::weights::source_variance_of_lanes;
 use super::Piece;
 
 /// One assembly at these lines, as measured and as corrected.
@@ -74,7 +74,7 @@ impl<'p, const N: usize> Corrected<'p, N> {
     pub(super) fn new(piece: &'p Piece<'p>) -> Self {
         let group = piece.group;
         let (size, motions) = (group.entries(), group.motions.count());
-        let joints = piece.unknowns.len() / (2 * piece.entries.len());
+        let joints = piece.joints();
         let none = |count: usize| vec![Complexes::ZERO; count];
         let members = group.blocks.iter().map(|block| {
             let columns = || vec![[Complexes::ZERO; N]; block.points];
@@ -150,7 +150,7 @@ impl<'p, const N: usize> Corrected<'p, N> {
             at += size;
         }
         for (variance, source) in self.of_sources.iter_mut().zip(&group.sources) {
-            *variance = Reals::of(|lane| source_variance(source, self.piece.levels, index[lane]));
+            *variance = source_variance_of_lanes(source, self.piece.levels, index);
         }
         let clusters = group.motions.clusters.iter();
         let sums = clusters.flat_map(|cluster| &cluster.covariance);
@@ -175,11 +175,7 @@ impl<'p, const N: usize> Corrected<'p, N> {
         for (s, begun) in self.begun.iter_mut().enumerate() {
             *begun = Complexes::of(|lane| corrections[line[lane] * count + s]);
             let (power, variance) = (begun.norm_sqr(), self.of_sources[s]);
-            let is_free = |lane: usize| variance.0[lane] > 0.0;
-            self.penalty += Reals::of(|lane| match is_free(lane) {
-                true => power.0[lane] / variance.0[lane],
-                false => 0.0,
-            });
+            self.penalty += variance.where_positive(power / variance, Reals::ZERO);
         }
         let shares = &self.piece.group.motions.shares;
         for (motion, shares) in self.motions.iter_mut().zip(shares) {

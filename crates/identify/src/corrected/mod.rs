@@ -55,6 +55,11 @@ pub(super) struct Piece<'p> {
 }
 
 impl Piece<'_> {
+    /// Joints that are sought.
+    fn joints(&self) -> usize {
+        self.unknowns.len() / (2 * self.entries.len())
+    }
+
     /// Lets the `corrections` of its lines follow the unknowns and adds the lines, linearised there, to the normal equations. Returns
     /// Σ|y − mean|²/σ² over repeated measurements where variances are renewed; `None` where a line cannot be computed.
     pub(super) fn settle(
@@ -141,7 +146,7 @@ fn marginal<const N: usize>(piece: &Piece<'_>, lines: usize) -> Option<Vec<f64>>
         strip.covariance_of_entries();
         for (lane, of_line) in own.chunks_exact_mut(size).enumerate() {
             for (e, variance) in of_line.iter_mut().enumerate() {
-                *variance = strip.factor[place(e, e)].re.0[lane];
+                *variance = strip.factor[place(e, e)].re.lane(lane);
             }
         }
     }

@@ -2,9 +2,9 @@
 
 use super::super::kernel::{coupled, dot, filled, through, times};
 use super::super::lanes::{Complexes, Number, Reals};
-use super::super::motions::Act;
+use super::super::motions::{Act, Action, Moved};
 use super::Piece;
-use super::lines::{CORRECTED, Corrected, MEASURED};
+use super::lines::{CORRECTED, Corrected, MEASURED, Member};
 
 impl<const N: usize> Corrected<'_, N> {
     /// Puts what is measured, moved by `part` of the way from the motions where it is linearised to the best ones, into the model.
@@ -85,30 +85,32 @@ impl<const N: usize> Corrected<'_, N> {
     }
 
     fn derive_by_joint(&mut self) {
-        let (size, count) = (self.residual.len(), self.piece.entries.len());
+        let (size, entries) = (self.residual.len(), self.piece.entries);
         let mut at = 0;
         for (block, member) in self.piece.group.blocks.iter().zip(&self.members) {
-            let columns = self.by_joint.chunks_exact_mut(size * count);
-            for (joint, columns) in columns.enumerate() {
-                for (place, column) in self
-                    .piece
-                    .entries
-                    .iter()
-                    .zip(columns.chunks_exact_mut(size))
-                {
-                    for (e, entry) in block.entries.iter().enumerate() {
-                        let mut sum = Complexes::ZERO;
-                        if joint == block.joint {
+            let own = at..at + block.entries.len();
+            at = own.end;
+            let mut columns = self.by_joint.chunks_exact_mut(size);
+            for joint in 0..self.piece.joints() {
+                for (place, column) in entries.iter().zip(&mut columns) {
+                    let column = &mut column[own.clone()];
+                    if joint != block.joint {
+                        column.fill(Complexes::ZERO);
+                        continue;
+                    }
+                    let first = place.first();
+                    for (value, entry) in column.iter_mut().zip(&block.entries) {
+                        let (p, q) = (&member.q[entry.row], &member.q[entry.column]);
+                        *value = -through(p, q, first);
+                    }
+                    for indices in place.all().skip(1) {
+                        for (value, entry) in column.iter_mut().zip(&block.entries) {
                             let (p, q) = (&member.q[entry.row], &member.q[entry.column]);
-                            for indices in place.all() {
-                                sum -= through(p, q, indices);
-                            }
+                            *value -= through(p, q, indices);
                         }
-                        column[at + e] = sum;
                     }
                 }
             }
-            at += block.entries.len();
         }
     }
 
@@ -122,25 +124,42 @@ impl<const N: usize> Corrected<'_, N> {
                 rest = others;
                 rows.fill(Complexes::ZERO);
                 for action in actions {
-                    let (block, member) =
-                        (&group.blocks[action.block], &self.members[action.block]);
-                    for &(e, at) in &action.entries {
-                        let entry = block.entries[e];
-                        let (p, q) = (&member.x[entry.row], &member.x[entry.column]);
-                        match action.act {
-                            Act::Free(i, j) => rows[at] += through(p, q, (i, j)),
-                            Act::Transfer(i, point) => {
-                                if entry.row == point {
-                                    rows[at] -= q[i];
-                                }
-                                if entry.column == point {
-                                    rows[at] -= p[i];
-                                }
-                            }
-                            Act::Own(_) => rows[at] += Complexes::ONE,
-                        }
-                    }
+                    derivative(&self.members[action.block], action, rows);
                 }
+            }
+        }
+    }
+}
+
+/// Adds the derivative of H^C by what acts on one assembly to its rows.
+#[inline(always)]
+fn derivative<const N: usize>(member: &Member<N>, action: &Action, rows: &mut [Complexes]) {
+    let x = &member.x;
+    match action.act {
+        Act::Free(i, j) if i == j => {
+            for &Moved { points, at } in &action.entries {
+                rows[at] += x[points.0][i] * x[points.1][i];
+            }
+        }
+        Act::Free(i, j) => {
+            for &Moved { points, at } in &action.entries {
+                let (p, q) = (&x[points.0], &x[points.1]);
+                rows[at] += p[i] * q[j] + p[j] * q[i];
+            }
+        }
+        Act::Transfer(i, point) => {
+            for &Moved { points, at } in &action.entries {
+                if points.0 == point {
+                    rows[at] -= x[points.1][i];
+                }
+                if points.1 == point {
+                    rows[at] -= x[points.0][i];
+                }
+            }
+        }
+        Act::Own(_) => {
+            for moved in &action.entries {
+                rows[moved.at] += Complexes::ONE;
             }
         }
     }

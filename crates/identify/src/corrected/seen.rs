@@ -16,7 +16,7 @@ impl<const N: usize> Corrected<'_, N> {
     /// Lets `line` be the one in this lane.
     pub(super) fn show(&self, lane: usize, relative_power: Reals, line: &mut Line<'_>) {
         line.index = self.index[lane];
-        line.relative_power = relative_power.0[lane];
+        line.relative_power = relative_power.lane(lane);
         let of = |own: &mut [Complex64], all: &[Complexes]| {
             for (own, all) in own.iter_mut().zip(all) {
                 *own = all.lane(lane);
@@ -50,7 +50,7 @@ impl<const N: usize> Corrected<'_, N> {
     pub(super) fn show_score(&self, lane: usize, line: &mut Line<'_>) {
         let (size, count) = (self.residual.len(), self.piece.entries.len());
         line.score.clear();
-        let omega = self.omega.0[lane];
+        let omega = self.omega.lane(lane);
         for of_joint in self.by_joint.chunks_exact(size * count) {
             let products = of_joint.chunks_exact(size).map(|column| {
                 let pairs = column.iter().zip(&self.whitened);

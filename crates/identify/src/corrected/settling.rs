@@ -24,12 +24,15 @@ impl<const N: usize> Corrected<'_, N> {
                 .whitened
                 .iter()
                 .fold(Reals::ZERO, |sum, r| sum + r.norm_sqr());
-            for lane in 0..LANES {
-                let gain = before.0[lane] - after.0[lane];
-                if !is_settled[lane] && gain <= SMALL_GAIN * before.0[lane] {
-                    is_settled[lane] = true;
-                    self.move_pulls(lane, 1.0);
-                }
+            let gain = (before - after).lanes();
+            let settles =
+                |lane: usize| !is_settled[lane] && gain[lane] <= SMALL_GAIN * before.lane(lane);
+            let settles: [bool; LANES] = std::array::from_fn(settles);
+            if settles != [false; LANES] {
+                self.move_pulls(Reals::of(|lane| if settles[lane] { 1.0 } else { 0.0 }));
+            }
+            for (is_settled, settles) in is_settled.iter_mut().zip(settles) {
+                *is_settled |= settles;
             }
             if round == ROUNDS || is_settled == [true; LANES] {
                 break;
@@ -52,9 +55,9 @@ impl<const N: usize> Corrected<'_, N> {
             let cost = self.cost_at(part);
             for lane in 0..LANES {
                 if !lowers[lane] {
-                    match cost.0[lane] < before.0[lane] {
+                    match cost.lane(lane) < before.lane(lane) {
                         true => lowers[lane] = true,
-                        false => part.0[lane] *= 0.25,
+                        false => part.set(lane, 0.25 * part.lane(lane)),
                     }
                 }
             }
@@ -65,7 +68,7 @@ impl<const N: usize> Corrected<'_, N> {
         for lane in 0..LANES {
             if !lowers[lane] {
                 is_settled[lane] = true;
-                part.0[lane] = 0.0;
+                part.set(lane, 0.0);
             }
         }
         part
@@ -99,20 +102,18 @@ impl<const N: usize> Corrected<'_, N> {
         for (own, best) in self.motions.iter_mut().zip(&self.best.motions) {
             *own += (*best - *own).scaled(part);
         }
-        for lane in 0..LANES {
-            if part.0[lane] > 0.0 {
-                self.move_pulls(lane, part.0[lane]);
-            }
-        }
+        self.move_pulls(part);
     }
 
-    /// Moves what the corrections of one line will be this part of the way to the best ones.
-    fn move_pulls(&mut self, lane: usize, part: f64) {
-        let rest = 1.0 - part;
-        self.part_begun.0[lane] *= rest;
+    /// Moves what the corrections of each line will be this part of the way to the best ones; of a line that does not move those may
+    /// be no numbers.
+    fn move_pulls(&mut self, part: Reals) {
+        let rest = Reals::all(1.0) - part;
+        self.part_begun = rest * self.part_begun;
         for (own, best) in self.pulls.iter_mut().zip(&self.best.pulls) {
-            own.re.0[lane] = rest * own.re.0[lane] + part * best.re.0[lane];
-            own.im.0[lane] = rest * own.im.0[lane] + part * best.im.0[lane];
+            for (own, best) in [(&mut own.re, best.re), (&mut own.im, best.im)] {
+                *own = part.where_positive(rest * *own + part * best, *own);
+            }
         }
     }
 }

@@ -48,24 +48,36 @@ impl<const N: usize> Corrected<'_, N> {
         }
         let (mut columns, mut covariance) = (self.by_motion.as_slice(), self.covariance.as_slice());
         for cluster in &self.piece.group.motions.clusters {
-            let (rows, motions) = (&cluster.rows, cluster.motions.len());
+            let (rows, motions) = (cluster.rows.as_slice(), cluster.motions.len());
             let (own, others) = columns.split_at(motions * rows.len());
             columns = others;
             let (of_cluster, others) = covariance.split_at(place(motions, 0));
             covariance = others;
-            for (i, column) in own.chunks_exact(rows.len()).enumerate() {
+            let column = |i: usize| &own[i * rows.len()..][..rows.len()];
+            for i in 0..motions {
+                // column i of J_ζ Σ_ζ
                 let weighted = &mut self.weighted[..rows.len()];
-                weighted.fill(Complexes::ZERO);
-                for (j, other) in own.chunks_exact(rows.len()).enumerate() {
+                let by = of_cluster[place(i, 0)];
+                for (sum, value) in weighted.iter_mut().zip(column(0)) {
+                    *sum = value.scaled(by);
+                }
+                for j in 1..motions {
                     let by = of_cluster[place(i, j)];
-                    for (sum, value) in weighted.iter_mut().zip(other) {
+                    for (sum, value) in weighted.iter_mut().zip(column(j)) {
                         *sum += value.scaled(by);
                     }
                 }
                 for (a, (&row, left)) in rows.iter().zip(weighted.iter()).enumerate() {
-                    let sums = &mut self.factor[place(row, 0)..=place(row, row)];
-                    for (&other, right) in rows[..=a].iter().zip(column) {
-                        sums[other] += right.conj_times(*left);
+                    let sums = &mut self.factor[place(row, 0)..][..=row];
+                    let right = column(i).iter();
+                    if cluster.is_dense {
+                        for (sum, right) in sums.iter_mut().zip(right) {
+                            *sum += right.conj_times(*left);
+                        }
+                    } else {
+                        for (&other, right) in rows[..=a].iter().zip(right) {
+                            sums[other] += right.conj_times(*left);
+                        }
                     }
                 }
             }
@@ -89,7 +101,11 @@ impl<const N: usize> Corrected<'_, N> {
                 pivot = pivot - left.norm_sqr();
             }
             // infinite where the entry is left out
-            if pivot.0.iter().any(|pivot| pivot.is_nan() || *pivot <= 0.0) {
+            if pivot
+                .lanes()
+                .iter()
+                .any(|pivot| pivot.is_nan() || *pivot <= 0.0)
+            {
                 return None;
             }
             self.reciprocals[row] = pivot.sqrt().reciprocal();

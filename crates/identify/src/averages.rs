@@ -40,21 +40,25 @@ pub(super) fn first_bands(layout: &Layout, choices: &BandChoices) -> Vec<Vec<Use
     band_choice::used(layout, choices, None)
 }
 
-/// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at the estimate.
+/// Resonances of the substructures of all assemblies, Hz, where bands are to be chosen.
+pub(super) fn own_resonances(all: &[Decoupled<'_>], choices: &BandChoices) -> Option<Vec<f64>> {
+    let mut values = all.iter().flat_map(|assembly| assembly.values);
+    let is_asked = choices.any_is_automatic() && values.any(Option::is_some);
+    let lines = all.iter().map(|assembly| assembly.lines);
+    is_asked.then(|| band_choice::own_resonances(lines))
+}
+
+/// The bands of each entry of each joint; automatic ones are chosen on the first assembly's lines at the estimate, away from
+/// the substructures' own resonances.
 pub(super) fn used_bands(
     all: &[Decoupled<'_>],
     layout: &Layout,
     choices: &BandChoices,
-    unknowns: &[f64],
+    (unknowns, own_hz): (&[f64], Option<&[f64]>),
 ) -> Vec<Vec<UsedBands>> {
     let chosen = || {
-        let mut values = all.iter().flat_map(|assembly| assembly.values);
-        if !choices.any_is_automatic() || !values.any(Option::is_some) {
-            return None;
-        }
         let first = all.first()?.lines;
-        let own_hz = band_choice::own_resonances(all.iter().map(|assembly| assembly.lines));
-        band_choice::chosen(first, &own_hz, layout, unknowns, &choices.given())
+        band_choice::chosen(first, own_hz?, layout, unknowns, &choices.given())
     };
     band_choice::used(layout, choices, chosen().as_deref())
 }

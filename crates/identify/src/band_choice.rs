@@ -1,7 +1,5 @@
 //! Bands for the averages, chosen by what the data say about the joint and where the substructures' own resonances spoil it.
 
-use std::ops::Range;
-
 use num_complex::Complex64;
 
 use bolted_joint_frf::resonances;
@@ -159,7 +157,13 @@ fn measures(
     unknowns: &[f64],
     decoupled: &[Place],
 ) -> Option<Vec<Vec<f64>>> {
-    let (entries, parts) = parts(lines, places, unknowns, decoupled)?;
+    let pieces = parallel::pieces(lines.frequency_hz.len(), LINES_OF_A_PART);
+    let parts = parallel::map(&pieces, |piece| {
+        let block = Block::new(lines, 0, &Chosen::of(piece.clone()), &Noise::none());
+        Part::of(&block, places, unknowns, decoupled)
+    });
+    let parts: Vec<Part> = parts.into_iter().collect::<Option<_>>()?;
+    let entries = parts.first().map_or(0, |part| part.entries);
     let usual: Vec<f64> = (0..entries)
         .map(|e| {
             let sizes = parts
@@ -175,43 +179,19 @@ fn measures(
 
 /// |H^C| and ∂H^C/∂K* of some lines.
 struct Part {
+    /// Entries of the assembly.
+    entries: usize,
     /// Of each entry, line by line.
     sizes: Vec<f64>,
     /// The rows of each line's Jacobian one after the other.
     jacobians: Vec<Complex64>,
 }
 
-/// How many entries the assembly's block has, and all its parts.
-fn parts(
-    lines: &Lines,
-    places: &[Place],
-    unknowns: &[f64],
-    decoupled: &[Place],
-) -> Option<(usize, Vec<Part>)> {
-    let block = Block::new(
-        lines,
-        0,
-        &Chosen::every(lines.frequency_hz.len()),
-        &Noise::none(),
-    );
-    let parts = parallel::pieces(block.lines(), LINES_OF_A_PART);
-    let parts = parallel::map(&parts, |lines| {
-        Part::of(&block, lines.clone(), places, unknowns, decoupled)
-    });
-    let parts = parts.into_iter().collect::<Option<_>>()?;
-    Some((block.entries.len(), parts))
-}
-
 impl Part {
-    fn of(
-        block: &Block,
-        lines: Range<usize>,
-        places: &[Place],
-        unknowns: &[f64],
-        decoupled: &[Place],
-    ) -> Option<Self> {
-        let entries = block.entries.len();
+    fn of(block: &Block, places: &[Place], unknowns: &[f64], decoupled: &[Place]) -> Option<Self> {
+        let (lines, entries) = (0..block.lines(), block.entries.len());
         let mut part = Self {
+            entries,
             sizes: Vec::with_capacity(lines.len() * entries),
             jacobians: Vec::with_capacity(lines.len() * entries * decoupled.len()),
         };

@@ -45,6 +45,13 @@ pub(super) struct Used {
     pub(super) assemblies: Assemblies,
 }
 
+impl Used {
+    /// Lines of all assemblies that are used.
+    pub(super) fn count(&self) -> usize {
+        self.chosen.iter().map(Chosen::count).sum()
+    }
+}
+
 /// Noise and unknowns at which it is asked which lines can be used.
 type Near<'n> = (Levels, &'n DVector<f64>);
 
@@ -81,6 +88,12 @@ impl<'a> Data<'a> {
             None => data.whole = Some(data.used(Chosen::all_of(&every))),
         }
         Some(data)
+    }
+
+    /// Lines of all assemblies.
+    pub(super) fn lines(&self) -> usize {
+        let counts = self.all.iter().map(|(lines, _)| lines.frequency_hz.len());
+        counts.sum()
     }
 
     /// Whether measured substructures have errors, so that not every line can be used.

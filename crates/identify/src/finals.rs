@@ -9,6 +9,10 @@ use super::layout::Place;
 use super::noise::Noise;
 use super::trials::{best_trials, rank, same};
 
+/// Where less than this part of the lines is used, it is seen whether the estimate itself could use more …
+const FEW: f64 = 0.9;
+/// … and by this factor they have to be more.
+const MANY_MORE: f64 = 1.05;
 /// An excess of −2 ln L on few lines that all the others do not make up for beside a fit beyond doubt.
 const RULED_OUT: f64 = 100.0;
 
@@ -101,13 +105,19 @@ pub(super) fn finalists_of_own_lines(
             None,
         ),
     };
-    // What looks best on few lines need not be best on all, and can use other lines.
+    // What looks best on few lines need not be best on all, and can use other lines; a trial that errs much in the joint or the
+    // level of noise can use few.
     if let Some(best) = finals.best()
         && data.has_errors()
-        && !finals.leads_to(&near, &best.estimate)
     {
-        let used = data.used_near(entries, best.estimate.place());
-        finals = finalists(&used, entries, noise, trials, None);
+        let is_another = !finals.leads_to(&near, &best.estimate);
+        let count = finals.used.count() as f64;
+        if is_another || count < FEW * data.lines() as f64 {
+            let used = data.used_near(entries, best.estimate.place());
+            if is_another || used.count() as f64 > MANY_MORE * count {
+                finals = finalists(&used, entries, noise, trials, None);
+            }
+        }
     }
     Some(finals)
 }

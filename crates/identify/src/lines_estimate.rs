@@ -10,7 +10,7 @@ use bolted_joint_frf::structure::{ComplexMatrix, SingularAssembly};
 use bolted_joint_joint::Drawn;
 
 use super::assessment::Assessment;
-use super::averages::{Decoupled, band_averages, first_bands, used_bands};
+use super::averages::{Decoupled, band_averages, first_bands, own_resonances, used_bands};
 use super::bands::{BandChoices, UsedBands};
 use super::bootstrap::{self, Bootstrap};
 use super::budget::Systematic;
@@ -31,7 +31,6 @@ use super::search::{Effort, Found};
 use super::sensitivity::{self, Sensitivity};
 use super::torque::{self, Assignment, Problem, TorqueChoice, TorqueDependence, Torques};
 use super::uncertainty::Covariance;
-use super::used::Chosen;
 
 /// What an identification from lines is to do beyond the estimate itself.
 #[derive(Clone, Default)]
@@ -381,9 +380,14 @@ fn identified(
         .iter()
         .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
         .collect();
-    let mut found = problem
-        .best(&layout, &starts, options.effort(), None)
-        .map_err(|starts| no_estimate(all, starts))?;
+    let (found, own_hz) = parallel::beside(
+        || problem.best(&layout, &starts, options.effort(), None),
+        || {
+            let of = |joint: usize| own_resonances(&decoupled_of(joint), &options.bands);
+            (0..count).map(of).collect::<Vec<_>>()
+        },
+    );
+    let mut found = found.map_err(|starts| no_estimate(all, starts))?;
     let places = layout.places();
     let used = Arc::clone(&found.used);
     let objective = used.assemblies.objective(&places);
@@ -407,7 +411,8 @@ fn identified(
             decoupled_of(joint),
             &estimate.unknowns.as_slice()[own.clone()],
         );
-        let bands = used_bands(&data, &layout, &options.bands, unknowns);
+        let at = (unknowns, own_hz[joint].as_deref());
+        let bands = used_bands(&data, &layout, &options.bands, at);
         let matrices = |unknowns: &DVector<f64>| layout.matrices(&unknowns.as_slice()[own.clone()]);
         let free = matrices(&estimate.unknowns);
         let passive = passive.as_ref().map(|passive| matrices(&passive.unknowns));
@@ -472,7 +477,7 @@ fn identified(
         assessment: found.assessment,
         starts: (found.tried, found.agreeing),
         lines_used: (
-            found.used.chosen.iter().map(Chosen::count).sum(),
+            found.used.count(),
             all.iter().map(|lines| lines.frequency_hz.len()).sum(),
         ),
         draws: draws.map(|(_, draws)| draws),

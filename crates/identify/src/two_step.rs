@@ -104,7 +104,7 @@ impl Problem {
         let block = Block::new(
             lines,
             0,
-            &Chosen::every(lines.frequency_hz.len()),
+            &Chosen::of(0..lines.frequency_hz.len()),
             &Noise::none(),
         );
         let entries = Layout::of_different(model, block.dofs / model.dofs()).places();

@@ -4,6 +4,8 @@
 //! the assembly A is large, and no linear model holds. How large it is expected to be follows from the variances and the joint
 //! alone, never from the residual: leaving such lines out biases nothing.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 use num_complex::Complex64;
 
@@ -33,10 +35,10 @@ pub(super) struct Chosen {
 }
 
 impl Chosen {
-    /// The first so many lines.
-    pub(super) fn every(lines: usize) -> Self {
+    /// Consecutive lines.
+    pub(super) fn of(lines: Range<usize>) -> Self {
         Self {
-            lines: (0..lines).collect(),
+            lines: lines.collect(),
             left_out: Vec::new(),
         }
     }

@@ -94,9 +94,10 @@ pub(super) fn used(
 pub(super) fn own_resonances<'a>(all: impl Iterator<Item = &'a Lines>) -> Vec<f64> {
     let of_substructure = |&(lines, substructure): &(&Lines, &Receptances)| -> Vec<f64> {
         let hz = &lines.frequency_hz;
+        let every: Vec<usize> = (0..hz.len()).collect();
         let found = (0..lines.joint_dofs()).flat_map(|dof| {
             let function = substructure.function(dof, dof);
-            let values: Vec<Complex64> = (0..hz.len()).map(|line| function.at(line)).collect();
+            let values = function.over(&every);
             resonances(hz, &values)
         });
         found.map(|resonance| resonance.frequency_hz).collect()

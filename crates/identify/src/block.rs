@@ -10,7 +10,6 @@ use num_complex::Complex64;
 use super::layout::Place;
 use super::lines::Lines;
 use super::noise::{Floor, Noise, Of};
-use super::receptances::Function;
 use super::used::Chosen;
 
 /// One entry of the symmetric H^C_ss, measured once or more often.
@@ -103,10 +102,10 @@ impl Block {
                 .iter()
                 .map(|&line| std::f64::consts::TAU * lines.frequency_hz[line])
                 .collect(),
-            free: Vec::with_capacity(count * dofs * dofs),
+            free: Vec::new(),
             dynamic_stiffness: Vec::new(),
-            transfer: Vec::with_capacity(count * points * dofs),
-            own: Vec::with_capacity(count * entries.len()),
+            transfer: Vec::new(),
+            own: Vec::new(),
             measured: Vec::with_capacity(count * entries.len()),
             scatter: Vec::with_capacity(count * entries.len()),
             known: Vec::new(),
@@ -114,9 +113,8 @@ impl Block {
             entries,
         };
         let variances = variances(lines, &places);
-        let functions = Functions::of(lines, &block);
+        block.take_substructures(lines, &chosen.lines);
         for &line in &chosen.lines {
-            functions.push(&mut block, line);
             block.push_assembly(lines, &places, variances.as_deref(), line);
         }
         let of_dof = |dof: usize| {
@@ -138,6 +136,26 @@ impl Block {
         block
     }
 
+    /// H_jj + H_kk, H_ks and H_ss at the `chosen` lines.
+    fn take_substructures(&mut self, lines: &Lines, chosen: &[usize]) {
+        let (dofs, points) = (self.dofs, self.points);
+        let of_b = |i, j| lines.b.function(i, j).over(chosen);
+        let joint = (0..dofs).flat_map(|i| (0..dofs).map(move |j| (i, j)));
+        let free = joint.map(|(i, j)| {
+            let mut sums = lines.a.function(i, j).over(chosen);
+            for (sum, b) in sums.iter_mut().zip(of_b(i, j)) {
+                *sum += b;
+            }
+            sums
+        });
+        self.free = line_by_line(free.collect(), chosen.len());
+        let transfer = (dofs..dofs + points).flat_map(|point| (0..dofs).map(move |i| (i, point)));
+        self.transfer = line_by_line(transfer.map(|(i, j)| of_b(i, j)).collect(), chosen.len());
+        let own = self.entries.iter();
+        let own = own.map(|entry| of_b(dofs + entry.row, dofs + entry.column));
+        self.own = line_by_line(own.collect(), chosen.len());
+    }
+
     /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
     fn push_assembly(
         &mut self,
@@ -153,6 +171,14 @@ impl Block {
                 self.measured.push(assembly[*place]);
                 self.scatter.push(0.0);
                 self.known.extend(known.map(|known| known[0][line]));
+                continue;
+            }
+            if let ([one, other], None, None) = (&places[..], known, &lines.repeats) {
+                let (one, other) = (assembly[*one], assembly[*other]);
+                let mean = (one + other) / 2.0;
+                self.measured.push(mean);
+                self.scatter
+                    .push((one - mean).norm_sqr() + (other - mean).norm_sqr());
                 continue;
             }
             // Of two measurements of one number the one with the higher coherence counts for more: y = Σ yᵢ/vᵢ / Σ 1/vᵢ
@@ -215,40 +241,16 @@ impl Block {
     }
 }
 
-/// What a block has of the substructures.
-struct Functions<'l> {
-    /// H_jj and H_kk, row by row.
-    free: Vec<[Function<'l>; 2]>,
-    transfer: Vec<Function<'l>>,
-    own: Vec<Function<'l>>,
-}
-
-impl<'l> Functions<'l> {
-    fn of(lines: &'l Lines, block: &Block) -> Self {
-        let dofs = block.dofs;
-        let joint = (0..dofs).flat_map(|i| (0..dofs).map(move |j| (i, j)));
-        let points = dofs..dofs + block.points;
-        let transfer = points.flat_map(|point| (0..dofs).map(move |i| (i, point)));
-        let own = block.entries.iter();
-        let of_b = |(i, j)| lines.b.function(i, j);
-        Self {
-            free: joint
-                .map(|(i, j)| [lines.a.function(i, j), of_b((i, j))])
-                .collect(),
-            transfer: transfer.map(of_b).collect(),
-            own: own
-                .map(|entry| of_b((dofs + entry.row, dofs + entry.column)))
-                .collect(),
+/// All values of each line one after the other, from those of each function.
+fn line_by_line(functions: Vec<Vec<Complex64>>, lines: usize) -> Vec<Complex64> {
+    let count = functions.len();
+    let mut values = vec![Complex64::ZERO; count * lines];
+    for (place, function) in functions.into_iter().enumerate() {
+        for (of_line, value) in values.chunks_exact_mut(count).zip(function) {
+            of_line[place] = value;
         }
     }
-
-    fn push(&self, block: &mut Block, line: usize) {
-        let free = self.free.iter().map(|[a, b]| a.at(line) + b.at(line));
-        block.free.extend(free);
-        let at = |function: &Function<'_>| function.at(line);
-        block.transfer.extend(self.transfer.iter().map(at));
-        block.own.extend(self.own.iter().map(at));
-    }
+    values
 }
 
 /// σ²/|H|² of each place over the lines, where it is known.

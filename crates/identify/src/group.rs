@@ -62,6 +62,15 @@ impl Source {
         self.used.as_ref().map_or(line, |used| used[line])
     }
 
+    /// Whether the values of both stand at the same places.
+    pub(super) fn has_places_of(&self, other: &Self) -> bool {
+        match (&self.used, &other.used) {
+            (None, None) => true,
+            (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+            _ => false,
+        }
+    }
+
     /// The value at a line that is used.
     pub(super) fn value_at(&self, line: usize) -> Complex64 {
         self.value[self.place(line)]

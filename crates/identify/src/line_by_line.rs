@@ -12,7 +12,10 @@ use super::kernel::{Small, dot, filled, for_dofs, inverse, vector};
 use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Layout;
 use super::lines::Lines;
+use super::parallel;
 
+/// Lines that one processor takes at a time.
+const LINES_AT_A_TIME: usize = 256;
 /// A column of unit length of which less than this is left beside those before it depends on them.
 const DEPENDENT: f64 = 1e-10;
 
@@ -159,14 +162,26 @@ pub(super) fn decouple(
 type OfLines = fn(&Lines, &Layout) -> Vec<Option<ComplexMatrix>>;
 
 fn with_dofs<const N: usize>(lines: &Lines, layout: &Layout) -> Vec<Option<ComplexMatrix>> {
-    let count = lines.frequency_hz.len();
+    let pieces = parallel::pieces(lines.frequency_hz.len(), LINES_AT_A_TIME);
+    let of_piece = |piece: &Range<usize>| of_lines::<N>(lines, layout, piece.clone());
+    parallel::map(&pieces, of_piece)
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn of_lines<const N: usize>(
+    lines: &Lines,
+    layout: &Layout,
+    piece: Range<usize>,
+) -> Vec<Option<ComplexMatrix>> {
     let used = layout.used_dofs();
     let dofs = filled::<N>(lines.joint_dofs());
     let is_fixed = lines.points.len() > dofs && used.len() == dofs;
     let mut least_squares = LeastSquares::<N>::new(lines);
-    let mut decoupled = Vec::with_capacity(count);
-    for first in (0..count).step_by(LANES) {
-        let last = LANES.min(count - first) - 1;
+    let mut decoupled = Vec::with_capacity(piece.len());
+    for first in piece.clone().step_by(LANES) {
+        let last = LANES.min(piece.end - first) - 1;
         let index: [usize; LANES] = std::array::from_fn(|lane| first + lane.min(last));
         let found = is_fixed.then(|| least_squares.solve(index));
         let found = found.flatten();

@@ -356,16 +356,11 @@ fn identified(
         .zip(on_a)
         .map(|(lines, on_a)| Equations::of(lines, on_a))
         .collect();
-    let (problem, decoupled) = parallel::both(
-        || Problem::new(assignment, noise),
-        || {
-            let lines = all.iter().zip(&equations);
-            lines
-                .map(|(lines, equations)| decouple(lines, &layout, *equations))
-                .collect::<Vec<_>>()
-        },
-    );
-    let problem = problem.ok_or_else(|| no_estimate(all, 0))?;
+    let problem = Problem::new(assignment, noise).ok_or_else(|| no_estimate(all, 0))?;
+    let each = all.iter().zip(&equations);
+    let decoupled: Vec<_> = each
+        .map(|(lines, equations)| decouple(lines, &layout, *equations))
+        .collect();
     let decoupled_of = |joint: usize| -> Vec<Decoupled<'_>> {
         let own = all.iter().zip(&decoupled).zip(&joint_of_assembly);
         own.filter(|(_, own)| **own == joint)

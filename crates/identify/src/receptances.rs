@@ -84,6 +84,23 @@ pub(super) enum Function<'r> {
 }
 
 impl Function<'_> {
+    /// At these lines, one after the other.
+    pub(super) fn over(&self, lines: &[usize]) -> Vec<Complex64> {
+        let Self::Formed { terms, lost } = self else {
+            return lines.iter().map(|&line| self.at(line)).collect();
+        };
+        let mut sums = vec![Complex64::ZERO; lines.len()];
+        for (share, values) in terms {
+            for (sum, &line) in sums.iter_mut().zip(lines) {
+                *sum += values[line] * share;
+            }
+        }
+        if *lost != 0.0 {
+            sums.iter_mut().for_each(|sum| *sum += lost);
+        }
+        sums
+    }
+
     #[inline]
     pub(super) fn at(&self, line: usize) -> Complex64 {
         match self {

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::block::{Block, Entry};
-use super::kernel::{coupled, dot, filled, matrix, through, times, vector};
+use super::kernel::{Small, coupled, dot, filled, matrix, through, times, vector};
 use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Place;
 use super::normal::Normal;
@@ -49,6 +49,14 @@ pub(super) struct Strip<'b, const N: usize> {
     pub(super) omega: Reals,
 }
 
+/// The joint of a few lines between the substructures.
+pub(super) struct Coupled<const N: usize> {
+    /// (I + F K*)⁻¹
+    pub(super) inverse: Small<N, Complexes>,
+    /// K*
+    pub(super) stiffness: Small<N, Complexes>,
+}
+
 impl<'b, const N: usize> Strip<'b, N> {
     pub(super) fn new(block: &'b Block) -> Self {
         let columns = || vec![[Complexes::ZERO; N]; block.points];
@@ -64,14 +72,14 @@ impl<'b, const N: usize> Strip<'b, N> {
         }
     }
 
-    /// Solves the lines from `first` on; `None` where that cannot be done.
+    /// Takes the lines from `first` on with their joint; `None` where the assembly cannot be computed at one of them.
     #[inline(always)]
-    pub(super) fn solve(
+    pub(super) fn couple(
         &mut self,
         first: usize,
         entries: &[Place],
         unknowns: &[f64],
-    ) -> Option<()> {
+    ) -> Option<Coupled<N>> {
         let block = self.block;
         self.count = LANES.min(block.lines().checked_sub(first)?);
         let (count, last) = (self.count, self.count.checked_sub(1)?);
@@ -95,6 +103,20 @@ impl<'b, const N: usize> Strip<'b, N> {
         let free = index.map(|line| block.free_at(line));
         let free = matrix(dofs, |i, j| Complexes::of(|lane| free[lane][i * dofs + j]));
         let inverse = coupled(dofs, &free, &stiffness)?;
+        Some(Coupled { inverse, stiffness })
+    }
+
+    /// Solves the lines from `first` on; `None` where that cannot be done.
+    #[inline(always)]
+    pub(super) fn solve(
+        &mut self,
+        first: usize,
+        entries: &[Place],
+        unknowns: &[f64],
+    ) -> Option<()> {
+        let Coupled { inverse, stiffness } = self.couple(first, entries, unknowns)?;
+        let (block, index) = (self.block, self.index);
+        let dofs = filled::<N>(block.dofs);
         let transfer = index.map(|line| block.transfer_at(line));
         let own = self.transfer.iter_mut().zip(&mut self.q).zip(&mut self.x);
         for (point, ((own, q), x)) in own.enumerate() {

@@ -7,23 +7,22 @@
 use std::ops::Range;
 
 use nalgebra::DVector;
-use num_complex::Complex64;
 
 use super::block::Block;
 use super::group::Group;
-use super::kernel::{complex_stiffness, coupled, filled, for_dofs, matrix};
+use super::kernel::{Small, filled, for_dofs};
+use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Place;
 use super::motions::{Act, place};
 use super::noise::Levels;
 use super::objective::Objective;
-use super::weights::source_variance;
+use super::strip::{Coupled, Strip};
+use super::weights::source_variance_of_lanes;
 
 /// A line is left out where A is expected to be larger than this …
 const MOST_MOVED: f64 = 0.5;
 /// … unless fewer than this part of the lines would be left, with much noise: then these are used.
 const LEAST_PART: f64 = 0.5;
-
-const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
 /// Lines of one assembly that an estimate goes through.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,12 +88,14 @@ pub(super) fn chosen(
 
 /// Which lines move little enough.
 fn steady(moved: &[f64]) -> Vec<bool> {
-    let mut sorted = moved.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let least = (sorted.len() as f64 * LEAST_PART) as usize;
-    let most = sorted
-        .get(least)
-        .map_or(MOST_MOVED, |least| least.max(MOST_MOVED));
+    let mut sizes = moved.to_vec();
+    let least = (sizes.len() as f64 * LEAST_PART) as usize;
+    let most = if least < sizes.len() {
+        let (_, least, _) = sizes.select_nth_unstable_by(least, f64::total_cmp);
+        least.max(MOST_MOVED)
+    } else {
+        MOST_MOVED
+    };
     moved.iter().map(|moved| *moved <= most).collect()
 }
 
@@ -162,7 +163,7 @@ impl FreeMotions {
 }
 
 /// √E‖A‖² of each line of one block, displacements in proportion to what a unit load on each DOF of the substructures does;
-/// infinite at a singular line.
+/// infinite where a line, or one beside it, is singular.
 fn motion<const N: usize>(
     group: &Group,
     number: usize,
@@ -170,59 +171,84 @@ fn motion<const N: usize>(
     (entries, unknowns): (&[Place], &[f64]),
 ) -> Vec<f64> {
     let block = &group.blocks[number];
-    let dofs = filled::<N>(block.dofs);
     let motions = FreeMotions::of(group, number);
-    let scale = &block.dynamic_stiffness;
     let terms = || motions.iter().flat_map(|motion| &motion.covariance);
     let mut acting: Vec<usize> = terms().map(|&(source, _)| source).collect();
     acting.sort_unstable();
     acting.dedup();
-    let mut variances = vec![0.0; group.sources.len()];
-    let of_line = |line: usize| {
-        let stiffness = complex_stiffness::<N>(entries, unknowns, block.omega[line]);
-        let free = block.free_at(line);
-        let free = matrix(dofs, |i, j| free[i * dofs + j]);
-        let Some(inverse) = coupled(dofs, &free, &stiffness) else {
-            return f64::INFINITY;
-        };
-        // Of A = (I + F K*)⁻¹ E K* with ones at (i, j) of E: ⟨A_ij, A_kl⟩ = P_ik R_jl
-        let mut left = [[ZERO; N]; N];
-        let mut right = [[ZERO; N]; N];
-        for i in 0..dofs {
-            for k in 0..dofs {
-                for a in 0..dofs {
-                    left[i][k] += inverse[a][i].conj() * inverse[a][k] * scale[a];
-                    right[i][k] += stiffness[i][a].conj() * stiffness[k][a] / scale[a];
-                }
-            }
-        }
-        let pair = |(i, j): (usize, usize), (k, l): (usize, usize)| (left[i][k] * right[j][l]).re;
-        let product = |one: (usize, usize), other: (usize, usize)| -> f64 {
-            let turned = |(i, j): (usize, usize)| (j, i);
-            let mut sum = pair(one, other);
-            if one.0 != one.1 {
-                sum += pair(turned(one), other);
-            }
-            if other.0 != other.1 {
-                sum += pair(one, turned(other));
-                if one.0 != one.1 {
-                    sum += pair(turned(one), turned(other));
-                }
-            }
-            sum
+    let mut variances = vec![Reals::ZERO; group.sources.len()];
+    let mut strip = Strip::<N>::new(block);
+    let mut sizes = Vec::with_capacity(block.lines());
+    for first in (0..block.lines()).step_by(LANES) {
+        let end = block.lines().min(first + LANES);
+        let Some(shares) = strip
+            .couple(first, entries, unknowns)
+            .map(|coupled| Shares::of(block, &coupled))
+        else {
+            sizes.resize(end, f64::INFINITY);
+            continue;
         };
         for &source in &acting {
-            variances[source] = source_variance(&group.sources[source], levels, line);
+            let source_of = &group.sources[source];
+            let places = strip.index.map(|line| source_of.place(line));
+            variances[source] = source_variance_of_lanes(source_of, levels, (strip.index, places));
         }
-        let mut power = 0.0;
+        let mut power = Reals::ZERO;
         for motion in &motions {
-            let terms = motion.covariance.iter();
-            let covariance: f64 = terms
-                .map(|(source, share)| share * variances[*source])
-                .sum();
-            power += covariance * product(motion.one, motion.other);
+            let mut covariance = Reals::ZERO;
+            for &(source, share) in &motion.covariance {
+                covariance += variances[source] * Reals::all(share);
+            }
+            power += covariance * shares.product(motion.one, motion.other);
         }
-        power.sqrt()
-    };
-    (0..block.lines()).map(of_line).collect()
+        sizes.extend(&power.sqrt().lanes()[..end - first]);
+    }
+    sizes
+}
+
+/// Of A = (I + F K*)⁻¹ E K* with ones at (i, j) of E: ⟨A_ij, A_kl⟩ = P_ik R_jl, at lines side by side.
+struct Shares<const N: usize> {
+    left: Small<N, Complexes>,
+    right: Small<N, Complexes>,
+}
+
+impl<const N: usize> Shares<N> {
+    fn of(block: &Block, coupled: &Coupled<N>) -> Self {
+        let dofs = filled::<N>(block.dofs);
+        let Coupled { inverse, stiffness } = coupled;
+        let mut left = [[Complexes::ZERO; N]; N];
+        let mut right = [[Complexes::ZERO; N]; N];
+        for (a, &scale) in block.dynamic_stiffness.iter().enumerate() {
+            let (by, compliance) = (Reals::all(scale), Reals::all(scale.recip()));
+            for i in 0..dofs {
+                for k in 0..dofs {
+                    left[i][k] += inverse[a][i].conj_times(inverse[a][k]).scaled(by);
+                    right[i][k] += stiffness[i][a]
+                        .conj_times(stiffness[k][a])
+                        .scaled(compliance);
+                }
+            }
+        }
+        Self { left, right }
+    }
+
+    fn pair(&self, (i, j): (usize, usize), (k, l): (usize, usize)) -> Reals {
+        (self.left[i][k] * self.right[j][l]).re
+    }
+
+    /// ⟨A, A⟩ of two entries of F, each with its transpose.
+    fn product(&self, one: (usize, usize), other: (usize, usize)) -> Reals {
+        let turned = |(i, j): (usize, usize)| (j, i);
+        let mut sum = self.pair(one, other);
+        if one.0 != one.1 {
+            sum += self.pair(turned(one), other);
+        }
+        if other.0 != other.1 {
+            sum += self.pair(one, turned(other));
+            if one.0 != one.1 {
+                sum += self.pair(turned(one), turned(other));
+            }
+        }
+        sum
+    }
 }

@@ -231,14 +231,15 @@ pub(super) fn source_variance(source: &Source, levels: Levels, line: usize) -> f
     variance / f64::from(source.count)
 }
 
-/// The same at lines side by side.
+/// The same at lines side by side, whose values stand at these places.
 #[inline(always)]
 pub(super) fn source_variance_of_lanes(
     source: &Source,
     levels: Levels,
-    lines: [usize; LANES],
+    (lines, places): ([usize; LANES], [usize; LANES]),
 ) -> Reals {
-    let power = Complexes::of(|lane| source.value_at(lines[lane])).norm_sqr();
+    let values = source.value.as_slice();
+    let power = Complexes::of(|lane| values[places[lane]]).norm_sqr();
     let variance = if source.known.is_empty() {
         let level = levels.of(Of::Substructure(source.side));
         let relative = Reals::all(level.relative * level.relative);

@@ -2,6 +2,7 @@
 
 use num_complex::Complex64;
 
+use super::super::group::Source;
 use super::super::kernel::{Small, filled, matrix, vector};
 use super::super::lanes::{Complexes, LANES, Number, Reals};
 use super::super::motions::place;
@@ -149,8 +150,14 @@ impl<'p, const N: usize> Corrected<'p, N> {
             }
             at += size;
         }
+        let mut places = index;
+        let mut before: Option<&Source> = None;
         for (variance, source) in self.of_sources.iter_mut().zip(&group.sources) {
-            *variance = source_variance_of_lanes(source, self.piece.levels, index);
+            if !before.is_some_and(|before| before.has_places_of(source)) {
+                places = index.map(|line| source.place(line));
+            }
+            before = Some(source);
+            *variance = source_variance_of_lanes(source, self.piece.levels, (index, places));
         }
         let clusters = group.motions.clusters.iter();
         let sums = clusters.flat_map(|cluster| &cluster.covariance);

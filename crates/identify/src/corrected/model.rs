@@ -75,16 +75,15 @@ impl<const N: usize> Corrected<'_, N> {
         Some(())
     }
 
-    /// H^C, the residual and the derivatives with the motions as they are.
+    /// H^C, the residual and the derivatives by the motions, with these as they are.
     pub(super) fn linearise(&mut self) -> Option<()> {
         self.correct(None);
         self.compute()?;
-        self.derive_by_joint();
         self.derive_by_motion();
         Some(())
     }
 
-    fn derive_by_joint(&mut self) {
+    pub(super) fn derive_by_joint(&mut self) {
         let (size, entries) = (self.residual.len(), self.piece.entries);
         let mut at = 0;
         for (block, member) in self.piece.group.blocks.iter().zip(&self.members) {
@@ -115,7 +114,7 @@ impl<const N: usize> Corrected<'_, N> {
     }
 
     /// By F it is Xᵀ dF X, by H_ks −(dH_skᵀ X + Xᵀ dH_ks).
-    fn derive_by_motion(&mut self) {
+    pub(super) fn derive_by_motion(&mut self) {
         let group = self.piece.group;
         let mut rest = self.by_motion.as_mut_slice();
         for cluster in &group.motions.clusters {

@@ -6,7 +6,7 @@ use super::lines::Corrected;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
 const ROUNDS: usize = 20;
 /// … as long as they promise to lower its cost by more than this part of it …
-const SMALL_GAIN: f64 = 1e-3;
+const SMALL_GAIN: f64 = 1e-2;
 /// … each shortened to a quarter so many times at most, until it does lower the cost: near a resonance a whole step can end beyond
 /// the pole.
 const QUARTERINGS: usize = 8;
@@ -37,18 +37,23 @@ impl<const N: usize> Corrected<'_, N> {
             if round == ROUNDS || is_settled == [true; LANES] {
                 break;
             }
-            let part = self.part_that_lowers(before, &mut is_settled);
+            let (part, is_there) = self.part_that_lowers(before, &mut is_settled);
+            self.advance(part);
+            if is_there {
+                self.derive_by_motion();
+            } else {
+                self.linearise()?;
+            }
             if is_settled == [true; LANES] {
                 break;
             }
-            self.advance(part);
-            self.linearise()?;
         }
         Some(())
     }
 
-    /// What part of the way to the best corrections lowers the cost of each line that is not settled; where none does, it is.
-    fn part_that_lowers(&mut self, before: Reals, is_settled: &mut [bool; LANES]) -> Reals {
+    /// What part of the way to the best corrections lowers the cost of each line that is not settled; where none does, it is. Also
+    /// whether that is where H^C and residual have been computed last.
+    fn part_that_lowers(&mut self, before: Reals, is_settled: &mut [bool; LANES]) -> (Reals, bool) {
         let mut lowers = *is_settled;
         let mut part = Reals::of(|lane| if lowers[lane] { 0.0 } else { 1.0 });
         for _ in 0..QUARTERINGS {
@@ -62,7 +67,7 @@ impl<const N: usize> Corrected<'_, N> {
                 }
             }
             if lowers == [true; LANES] {
-                return part;
+                return (part, true);
             }
         }
         for lane in 0..LANES {
@@ -71,7 +76,7 @@ impl<const N: usize> Corrected<'_, N> {
                 part.set(lane, 0.0);
             }
         }
-        part
+        (part, false)
     }
 
     /// Σ|y − H^C|²/σ_C² and the penalty of the corrections.

@@ -25,6 +25,10 @@ impl<const N: usize> Corrected<'_, N> {
                 let (own, others) = columns.split_at(cluster.rows.len());
                 columns = others;
                 let by = self.motions[motion];
+                if let ([row], [j]) = (cluster.rows.as_slice(), own) {
+                    self.whitened[*row] += *j * by;
+                    continue;
+                }
                 for (&row, j) in cluster.rows.iter().zip(own) {
                     self.whitened[row] += *j * by;
                 }
@@ -53,6 +57,10 @@ impl<const N: usize> Corrected<'_, N> {
             columns = others;
             let (of_cluster, others) = covariance.split_at(place(motions, 0));
             covariance = others;
+            if let ([row], [j], [variance]) = (rows, own, of_cluster) {
+                self.factor[place(*row, *row)].re += j.norm_sqr() * *variance;
+                continue;
+            }
             let column = |i: usize| &own[i * rows.len()..][..rows.len()];
             for i in 0..motions {
                 // column i of J_ζ Σ_ζ
@@ -147,7 +155,9 @@ impl<const N: usize> Corrected<'_, N> {
         }
     }
 
+    /// L⁻¹ ∂H^C/∂K*
     pub(super) fn whiten_derivatives(&mut self) {
+        self.derive_by_joint();
         for column in self.by_joint.chunks_exact_mut(self.residual.len()) {
             forward(&self.factor, &self.reciprocals, column);
         }

@@ -10,6 +10,15 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: takes long, so it begins first")
+
+
+def pytest_collection_modifyitems(items):
+    """Tests run side by side: at the end none shall be left that takes long."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
 @pytest.fixture(scope="session")
 def program():
     """Path of the executable; BOLTED_JOINT names another one."""

@@ -10,6 +10,8 @@ import sys
 import pytest
 from conftest import ROOT
 
+pytestmark = [pytest.mark.long, pytest.mark.xdist_group("tutorial")]
+
 
 @pytest.fixture(scope="module")
 def tutorial(run, tmp_path_factory):

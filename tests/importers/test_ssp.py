@@ -161,6 +161,7 @@ tip = "right/2:+Y"
     return path
 
 
+@pytest.mark.long
 def test_draws_have_the_deviations_and_correlations_of_the_file(run, tmp_path):
     ssp = system(run, uncertain(tmp_path), "drawn.ssp", "--draws", 2000, "--seed", 3)
     names = ["lap.joint.k_yy", "lap.joint.k_thetatheta", "lap.joint.c_yy", "lap.joint.c_thetatheta"]

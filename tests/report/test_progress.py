@@ -70,6 +70,7 @@ def large(program, demo, tmp_path_factory):
     return [program, "identify", folder / "study.toml", "-o", folder / "o.joint.json"]
 
 
+@pytest.mark.long
 def test_a_terminal_sees_how_much_of_a_large_file_is_read(large, demo):
     seen, text = seen_by_a_terminal(large)
     parts = re.findall(r"assembly.uff \[(#*)(-*)\] ([\d.]+) (k?M?G?B) of 2.00 GB, \S+ left", text)

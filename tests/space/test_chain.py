@@ -90,6 +90,7 @@ def test_two_unknown_joints_with_noise_are_in_their_intervals(run, tmp_path):
     assert np.mean(squares) == pytest.approx(42, abs=11), squares
 
 
+@pytest.mark.long
 def test_a_light_and_stiff_part_between_them_hides_which_is_which(program, run, tmp_path):
     """Springs in series: only the sum of both compliances is seen."""
     import subprocess

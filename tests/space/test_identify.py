@@ -113,6 +113,7 @@ def test_small_errors_of_the_set_up_are_in_the_intervals(run, tmp_path):
     assert np.sqrt(np.mean(errors**2)) > 0.6
 
 
+@pytest.mark.long
 def test_sensors_a_millimetre_and_a_degree_off_are_in_the_intervals(run, tmp_path):
     """And gains by 1 %: with an exact set-up the search would find nothing; stiffness to 1 % is what is left."""
     rig = Rig(K, C)
@@ -130,6 +131,7 @@ def test_sensors_a_millimetre_and_a_degree_off_are_in_the_intervals(run, tmp_pat
     assert found["budget_used"] < 1.5 and found["misfits"] == []
 
 
+@pytest.mark.long
 def test_noise_on_everything_is_in_the_intervals(run, program, tmp_path):
     """1 % on every value of a and b, and on the assembly: without that of a and b the errors would be many deviations."""
     soft, own = 0.02 * K, definite(2, 300.0)
@@ -186,6 +188,7 @@ def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
     assert apart(identified(run, tmp_path)["joint_file"]["joint"]["stiffness"], K) < 0.1
 
 
+@pytest.mark.long
 def test_errors_beyond_the_budget_are_told(run, tmp_path):
     """Positions 3 mm off where 0.1 mm is stated, and the like."""
     rig, rng = Rig(K, C), np.random.default_rng(6)
@@ -204,6 +207,7 @@ def test_errors_beyond_the_budget_are_told(run, tmp_path):
         (1, True, 7, -1, "b.impacts[7]", "257:+X", "gain were -1 times"),
     ],
 )
+@pytest.mark.long
 def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impacts, places, factor, key, dofs, says):
     """A sensor 20 mm from where it is said to be, a channel and a hit with the wrong sign; the same in all files."""
     rig = Rig(K, C)

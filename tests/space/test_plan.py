@@ -46,6 +46,7 @@ def test_the_plan_is_what_the_estimate_says_of_itself(run, tmp_path, budget):
         assert one["by_noise_alone"] == pytest.approx(other["by_noise_alone"], rel=0.02)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("noise, draws", [(1e-3, 40), (1e-2, 100)])
 def test_simulated_tests_scatter_as_planned(run, tmp_path, noise, draws):
     """Tests with noise, 42 unknowns, sensors and impacts elsewhere on finite elements. The pooled r.m.s. of 40 tests scatters by

@@ -22,6 +22,7 @@ def test_more_than_four_bolts_have_joints(program, tmp_path, bolts, kind):
     assert bolted.error(found, truth) < 1e-3
 
 
+@pytest.mark.long
 def test_deviations_of_bolts_near_each_other_hold_where_all_functions_have_noise(program, tmp_path):
     """Sensitivities follow from functions that have noise, and the noise's own square once passed for information: three bolts 45 mm
     apart came out 13 of their deviations off, two of 30 mm up to 7."""
@@ -38,6 +39,7 @@ def test_deviations_of_bolts_near_each_other_hold_where_all_functions_have_noise
     assert np.mean(abs(z) < 1.96) > 0.85 and abs(z).max() < 4.5, z
 
 
+@pytest.mark.long
 def test_they_hold_with_the_error_budget_and_without_rotation(program, tmp_path):
     for number, options in enumerate([{"budget": None}, {"model": "translation"}]):
         folder = tmp_path / str(number)
@@ -53,6 +55,7 @@ def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(progra
     assert any("is larger than what tells the bolts apart" in reason for reason in whole["reasons_against"]), whole["reasons_against"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("draw", [13, 17])
 def test_with_misplaced_sensors_between_bolts_a_joint_holds_or_is_refused(program, tmp_path, draw):
     """Draw 17 was 6.2 deviations off with slopes across bolts; of 13 the data hardly know the second bolt, 20 deviations off."""

@@ -116,6 +116,7 @@ def test_intervals_hold_when_everything_is_a_little_wrong(identify):
     assert abs(z).max() < 5, z
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("draw", "kind", "is_placed"), [(1, "alike", False), (0, "different", True)])
 def test_two_bolts_are_found_when_everything_is_a_little_wrong(program, tmp_path, draw, kind, is_placed):
     """Without causes the first of these data lead to no joint at all."""

@@ -101,6 +101,7 @@ def test_a_second_assembly_makes_the_interval_shorter_but_not_by_noise_alone(pro
     assert (two[:3] > 1.5 * noise[:3]).all(), two / noise
 
 
+@pytest.mark.long
 def test_intervals_of_two_assemblies_hold_when_everything_is_a_little_wrong(program, tmp_path, monkeypatch):
     all_z = []
     for seed in range(3):
@@ -167,6 +168,7 @@ def test_assemblies_with_other_points_say_why_no_cause_takes_part(program, tmp_p
     assert "its deviations are those of noise alone" in stderr
 
 
+@pytest.mark.long
 def test_a_bootstrap_scatters_as_the_budget_says(program, tmp_path, monkeypatch):
     """What was read off of the set-up is drawn anew with the noise. As many draws as these tell a deviation to 11 %, whatever it is:
     the ratio of its estimate to itself has the relative deviation 1/√(2n). Drawing the causes themselves led to scatters that were

@@ -115,7 +115,14 @@ pub(super) fn finalists_of_own_lines(
         if is_another || count < FEW * data.lines() as f64 {
             let used = data.used_near(entries, best.estimate.place());
             if is_another || used.count() as f64 > MANY_MORE * count {
-                finals = finalists(&used, entries, noise, trials, None);
+                let others = finalists(&used, entries, noise, trials, None);
+                let comes_to_rest = |finals: &Finals| {
+                    let best = finals.best();
+                    best.is_some_and(|best| best.estimate.converged)
+                };
+                if is_another || comes_to_rest(&others) {
+                    finals = others;
+                }
             }
         }
     }

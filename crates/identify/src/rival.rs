@@ -14,7 +14,7 @@ const HOPELESS: f64 = 1000.0;
 impl Problem<'_> {
     /// By how much −2 ln L of another joint model is above that of an estimate, where that is too much for any search to make up
     /// for: told on few lines, with what the errors of measured substructures add to the variances at the estimate. `None`
-    /// where it is not, or where one bolt between substructures without errors makes a search cost little.
+    /// where it is not.
     pub(super) fn hopeless_excess(
         &self,
         own: &Layout,
@@ -23,11 +23,7 @@ impl Problem<'_> {
         start: &DVector<f64>,
     ) -> Option<f64> {
         let data = &self.data;
-        let whole = match &data.thinned_whole {
-            Some(whole) => whole,
-            None if own.bolts() > 1 => &data.thinned,
-            None => return None,
-        };
+        let whole = data.thinned_whole.as_ref().unwrap_or(&data.thinned);
         if self.joints() > 1 {
             return None;
         }

@@ -6,7 +6,7 @@ use super::lines::Corrected;
 /// Gauss–Newton steps of one line's corrections for each step of the unknowns …
 const ROUNDS: usize = 20;
 /// … as long as they promise to lower its cost by more than this part of it …
-const SMALL_GAIN: f64 = 1e-2;
+const SMALL_GAIN: f64 = 1e-3;
 /// … each shortened to a quarter so many times at most, until it does lower the cost: near a resonance a whole step can end beyond
 /// the pole.
 const QUARTERINGS: usize = 8;

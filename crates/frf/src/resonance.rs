@@ -87,6 +87,27 @@ mod tests {
         assert!((found[0].prominence_decades - (0.49 - 0.04)).abs() < 1e-9);
     }
 
+    /// With its two sides walked through point by point.
+    #[test]
+    fn valleys_reach_to_the_next_higher_point() {
+        let mut state = 1_u64;
+        let levels: Vec<f64> = std::iter::repeat_with(|| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1);
+            // few values, so that many are equal
+            (state >> 60) as f64
+        })
+        .take(300)
+        .collect();
+        let found = valleys(levels.iter().copied());
+        for (peak, &top) in levels.iter().enumerate() {
+            let before = levels[..peak]
+                .iter()
+                .rev()
+                .take_while(|level| **level <= top);
+            assert_eq!(found[peak], before.copied().fold(top, f64::min), "{peak}");
+        }
+    }
+
     #[test]
     fn ripples_edges_and_steps_are_no_resonances() {
         let frequency_hz = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];

@@ -148,12 +148,12 @@ impl Block {
             }
             sums
         });
-        self.free = line_by_line(free.collect(), chosen.len());
+        self.free = interleaved(free.collect(), chosen.len());
         let transfer = (dofs..dofs + points).flat_map(|point| (0..dofs).map(move |i| (i, point)));
-        self.transfer = line_by_line(transfer.map(|(i, j)| of_b(i, j)).collect(), chosen.len());
+        self.transfer = interleaved(transfer.map(|(i, j)| of_b(i, j)).collect(), chosen.len());
         let own = self.entries.iter();
         let own = own.map(|entry| of_b(dofs + entry.row, dofs + entry.column));
-        self.own = line_by_line(own.collect(), chosen.len());
+        self.own = interleaved(own.collect(), chosen.len());
     }
 
     /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
@@ -242,7 +242,7 @@ impl Block {
 }
 
 /// All values of each line one after the other, from those of each function.
-fn line_by_line(functions: Vec<Vec<Complex64>>, lines: usize) -> Vec<Complex64> {
+fn interleaved(functions: Vec<Vec<Complex64>>, lines: usize) -> Vec<Complex64> {
     let count = functions.len();
     let mut values = vec![Complex64::ZERO; count * lines];
     for (place, function) in functions.into_iter().enumerate() {

@@ -54,3 +54,41 @@ impl<'r> Formed<'r> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::DMatrix;
+    use num_complex::Complex64;
+
+    use super::*;
+    use crate::MeasuredSubstructure;
+
+    /// Both kinds agree with the matrix of each line, W U Wᵀ with what is lost.
+    #[test]
+    fn lines_side_by_side_are_those_one_by_one() {
+        let w = DMatrix::from_row_slice(2, 3, &[0.0, 1.0, 0.0, -20.0, 0.0, 20.0]);
+        let value = |f: usize, line: usize| Complex64::new((f + 3 * line) as f64, 1.5 - f as f64);
+        let functions = (0..6).map(|f| (0..5).map(|line| value(f, line)).collect());
+        let measured = MeasuredSubstructure::new(w, functions.collect(), Vec::new(), None);
+        let lost = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 0.0, 0.25]);
+        let measured = Receptances::Measured(Arc::new(measured.with_lost(Some(lost))));
+        let mut exact: Vec<_> = (0..5).map(|line| measured.at(line).into_owned()).collect();
+        exact[3][(0, 1)] += 1.0;
+        for receptances in [measured, Receptances::Exact(exact)] {
+            let formed = Formed::of(&receptances);
+            assert_eq!(formed.is_symmetric(), receptances.measured().is_some());
+            let lines = [1, 2, 3, 3];
+            let mut values = Vec::new();
+            formed.at(lines, &mut values);
+            for (place, value) in values.iter().enumerate() {
+                for (lane, &line) in lines.iter().enumerate() {
+                    let expected = receptances.at(line)[(place / 2, place % 2)];
+                    let error = (value.lane(lane) - expected).norm();
+                    assert!(error <= 1e-14 * expected.norm(), "{place} {line}");
+                }
+            }
+        }
+    }
+}

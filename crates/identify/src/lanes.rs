@@ -344,6 +344,18 @@ mod tests {
     }
 
     #[test]
+    fn each_lane_has_its_own_choice() {
+        let a = Reals::of(|lane| lane as f64 - 1.0);
+        let (yes, no) = (
+            Reals::of(|lane| [f64::NAN, f64::NAN, 3.0, 4.0][lane]),
+            Reals::all(7.0),
+        );
+        assert_eq!(a.where_positive(yes, no).lanes(), [7.0, 7.0, 3.0, 4.0]);
+        assert_eq!(a.at_least(Reals::all(0.5)).lanes(), [0.5, 0.5, 1.0, 2.0]);
+        assert_eq!(a.at_most(Reals::all(0.5)).lanes(), [-1.0, 0.0, 0.5, 0.5]);
+    }
+
+    #[test]
     fn one_lane_without_a_reciprocal_is_none() {
         let last_is_zero = |lane: usize| Complex64::from(if lane + 1 == LANES { 0.0 } else { 1.0 });
         assert_eq!(Complexes::of(last_is_zero).reciprocal(), None);

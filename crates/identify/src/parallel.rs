@@ -67,17 +67,6 @@ pub fn among_them<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     rayon::scope(|_| work())
 }
 
-/// What two pieces of work come to.
-pub fn both<A: Send, B: Send>(
-    one: impl FnOnce() -> A + Send,
-    other: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    if is_alone(2) {
-        return (one(), other());
-    }
-    rayon::join(|| as_piece(one), || as_piece(other))
-}
-
 /// What two pieces of work come to, the other being done by a processor that the first one, which has parts to share out, leaves
 /// idle.
 pub fn beside<A: Send, B: Send>(

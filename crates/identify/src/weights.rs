@@ -283,7 +283,6 @@ pub(super) fn held_power(power: f64, measured: f64) -> f64 {
 pub(super) fn held_powers(computed: Complexes, measured: Complexes) -> Reals {
     let (power, measured) = (computed.norm_sqr(), measured.norm_sqr());
     let most_apart = Reals::all(MOST_APART);
-    // in this order a power that is no number stays none
     let held = (measured / most_apart).at_least(power);
     let held = (measured * most_apart).at_most(held);
     measured.where_positive(held, power)

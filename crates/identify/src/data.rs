@@ -7,6 +7,7 @@ use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
 
 use super::draw::draw;
+use super::estimator::Estimate;
 use super::group::Group;
 use super::layout::{MOST_BOLTS, Place};
 use super::lines::Lines;
@@ -94,6 +95,14 @@ impl<'a> Data<'a> {
     pub(super) fn lines(&self) -> usize {
         let counts = self.all.iter().map(|(lines, _)| lines.frequency_hz.len());
         counts.sum()
+    }
+
+    /// See [`Objective::standing`]: on the lines that starts are tried on.
+    pub(super) fn standing(&self, entries: &[Place], estimate: &Estimate) -> f64 {
+        match &self.thinned_whole {
+            Some(whole) => whole.objective(entries).standing(estimate),
+            None => estimate.misfit,
+        }
     }
 
     /// Whether measured substructures have errors, so that not every line can be used.

@@ -7,13 +7,14 @@ use super::data::{Data, Used};
 use super::estimator::{Estimate, Free, estimate};
 use super::layout::Place;
 use super::noise::Noise;
-use super::trials::{best_trials, rank, same};
+use super::objective::Objective;
+use super::trials::{best_trials, handicap, same};
 
 /// Where less than this part of the lines is used, it is seen whether the estimate itself could use more …
 const FEW: f64 = 0.9;
 /// … and by this factor they have to be more.
 const MANY_MORE: f64 = 1.05;
-/// An excess of −2 ln L on few lines that all the others do not make up for beside a fit beyond doubt.
+/// By how much worse a minimum stands that nothing else makes up for.
 const RULED_OUT: f64 = 100.0;
 
 /// A minimum on thinned lines and where it lies on all of them, if it is one there.
@@ -26,6 +27,8 @@ pub(super) struct Final {
 pub(super) struct End {
     pub(super) estimate: Estimate,
     pub(super) assessment: Assessment,
+    /// See [`Objective::standing`]: on all lines that are used, once there is another minimum to compare it with.
+    standing: Option<f64>,
     pub(super) has_corrections: bool,
 }
 
@@ -45,15 +48,14 @@ impl Final {
     /// Whether it is beyond doubt on all lines, and `other` too far from it on the few, or no minimum.
     fn rules_out(&self, other: &Estimate) -> bool {
         let is_certain = |end: &End| end.estimate.converged && end.assessment.is_certain();
-        let own = &self.candidate;
-        let is_far =
-            own.measurements == other.measurements && other.misfit - own.misfit > RULED_OUT;
+        let is_far = other.standing - self.candidate.standing > RULED_OUT;
         self.end.as_ref().is_some_and(is_certain) && (is_far || !other.converged)
     }
 
+    /// The −2 log-likelihood on the lines that all use, with a handicap for a search that has not come to rest.
     pub(super) fn rank(&self) -> f64 {
-        let end = self.end.as_ref();
-        end.map_or(f64::INFINITY, |end| rank(&end.estimate))
+        let of_end = |end: &End| end.estimate.misfit + handicap(&end.estimate);
+        self.end.as_ref().map_or(f64::INFINITY, of_end)
     }
 }
 
@@ -129,6 +131,29 @@ pub(super) fn finalists_of_own_lines(
     Some(finals)
 }
 
+/// Takes the minima away beside which another one stands so much better that they are none.
+fn rule_out(finals: &mut [Final], whole: &Objective<'_>) {
+    let ends = || finals.iter().filter(|one| one.end.is_some());
+    if ends().count() < 2 {
+        return;
+    }
+    let mut best = f64::INFINITY;
+    for end in finals.iter_mut().filter_map(|one| one.end.as_mut()) {
+        let standing = end
+            .standing
+            .unwrap_or_else(|| whole.standing(&end.estimate));
+        end.standing = Some(standing);
+        best = best.min(standing + handicap(&end.estimate));
+    }
+    for one in finals {
+        let is_behind = |end: &mut End| {
+            let standing = end.standing.unwrap_or(f64::INFINITY);
+            standing - best > RULED_OUT
+        };
+        one.end.take_if(is_behind);
+    }
+}
+
 /// The best few different `trials` on the lines that are used, best first; `known` are those of fewer trials.
 pub(super) fn finalists(
     used: &Arc<Used>,
@@ -162,10 +187,14 @@ pub(super) fn finalists(
                 Some(End {
                     estimate,
                     assessment,
+                    standing: None,
                     has_corrections: !whole.holds,
                 })
             }),
         });
+    }
+    if !whole.is_independent() {
+        rule_out(&mut finals, &whole);
     }
     finals.sort_by(|a, b| a.rank().total_cmp(&b.rank()));
     Finals {

@@ -13,7 +13,7 @@ use super::layout::Place;
 use super::noise::Noise;
 use super::objective::Objective;
 use super::strip::ENTRIES_OF_ONE;
-use super::trials::{SAME_MISFIT, best_trials, rank, same, try_starts};
+use super::trials::{SAME_MISFIT, best_trials, same, try_starts};
 
 /// Starts of the grid between two looks at whether the fit is beyond doubt.
 pub(super) const STARTS_AT_A_TIME: usize = 4;
@@ -162,9 +162,9 @@ fn softest_of_the_best<'f>(
         });
         parts.sum()
     };
-    let ends = finals.best_first.iter();
-    let ends = ends.filter_map(|one| one.end.as_ref());
-    ends.filter(|end| rank(&end.estimate) <= lowest + SAME_MISFIT)
+    let best = finals.best_first.iter();
+    let best = best.filter(|one| one.rank() <= lowest + SAME_MISFIT);
+    best.filter_map(|one| one.end.as_ref())
         .min_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
@@ -172,7 +172,8 @@ fn softest_of_the_best<'f>(
 /// to agree.
 fn is_certain(trials: &[Estimate], finals: &Finals) -> bool {
     finals.best().is_some_and(|best| {
-        best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
+        let is_at_rest = best.assessment.is_exact || best.estimate.converged;
+        is_at_rest && best.assessment.is_certain() && agreeing(trials, finals, &best.estimate) > 1
     })
 }
 

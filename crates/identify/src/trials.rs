@@ -82,7 +82,10 @@ pub(super) fn try_starts(
         let few = used.assemblies.objective(entries).as_searched();
         let (levels, start) = (Some(robust.levels), &robust.unknowns);
         let end = estimate(&few, noise, levels, &Free, start, None)?;
-        Some(end.without_corrections())
+        Some(Estimate {
+            standing: data.standing(entries, &end),
+            ..end.without_corrections()
+        })
     });
     let led = comparable.into_iter().zip(ends);
     let left = others.into_iter().map(|robust| (robust, None));
@@ -102,19 +105,14 @@ pub(super) struct Way {
 
 /// The best few different `trials`, best first.
 pub(super) fn best_trials(trials: &[Estimate]) -> Vec<&Estimate> {
-    // Each may rest on lines of its own: on as many as the one with the most it would have this −2 log-likelihood.
     let at_most = trials.iter().map(|trial| trial.measurements).max();
     let at_most = at_most.unwrap_or(0) as f64;
-    let comparable_rank = |trial: &Estimate| rank(trial) * at_most / trial.measurements as f64;
-    let mut ranked: Vec<(f64, &Estimate)> = trials
-        .iter()
-        .map(|trial| (comparable_rank(trial), trial))
-        .collect();
-    ranked.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    let lowest = ranked.first().map_or(0.0, |(rank, _)| *rank);
+    let mut ranked: Vec<&Estimate> = trials.iter().collect();
+    ranked.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    let lowest = ranked.first().map_or(0.0, |best| rank(best));
     let mut chosen: Vec<&Estimate> = Vec::new();
-    for (rank, candidate) in ranked {
-        let comparable = rank <= lowest + 2.0 * at_most * COMPARABLE.ln();
+    for candidate in ranked {
+        let comparable = rank(candidate) <= lowest + 2.0 * at_most * COMPARABLE.ln();
         if chosen.len() < FINALISTS
             && comparable
             && !chosen.iter().any(|known| same(known, candidate))
@@ -125,14 +123,17 @@ pub(super) fn best_trials(trials: &[Estimate]) -> Vec<&Estimate> {
     chosen
 }
 
-/// What estimates are ranked by: the −2 log-likelihood, with a handicap for those that have not converged.
-pub(super) fn rank(estimate: &Estimate) -> f64 {
-    let handicap = if estimate.converged {
-        0.0
-    } else {
-        DECISIVE_MISFIT
-    };
-    estimate.misfit + handicap
+/// What estimates from few lines are ranked by: their standing, with a handicap for those that have not converged.
+fn rank(estimate: &Estimate) -> f64 {
+    estimate.standing + handicap(estimate)
+}
+
+/// What is added to the −2 log-likelihood of an estimate that has not converged before it is ranked.
+pub(super) fn handicap(estimate: &Estimate) -> f64 {
+    match estimate.converged {
+        true => 0.0,
+        false => DECISIVE_MISFIT,
+    }
 }
 
 /// Whether two estimates from the same lines are one minimum.

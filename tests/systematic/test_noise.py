@@ -25,6 +25,19 @@ def test_each_function_has_a_floor_of_its_own(program, tmp_path, relative, floor
     assert 0.92 <= covered.mean() <= 0.98
 
 
+@pytest.mark.parametrize("relative, floor", [(0, 0.08), (0.1, 0)])
+def test_much_noise_of_unknown_level_leads_to_no_other_joint(program, tmp_path, relative, floor):
+    """Where A and B err by as much as here, a joint that lets their errors act strongly leaves less than the one that made the data."""
+    deviation = deviations(EXACT, relative, floor)
+    least = bound(EXACT, deviation)
+    found = [run(program, study_with(tmp_path, drawn(EXACT, deviation, seed), "")) for seed in range(12)]
+    errors = np.array([one.values - rig.TRUTH for one in found]) / least
+    assert abs(errors).max() < 5
+    usable = [one for one in found if one.whole["usable"]]
+    assert len(usable) >= 3
+    assert max(abs(one.z).max() for one in usable) < 4
+
+
 def test_floors_are_stated_for_each_kind_of_function(program, tmp_path):
     deviation = deviations(EXACT, 0.0, 0.01)
     # the floor of each kind in this noise, of A and B, as r.m.s. over the functions of that kind

@@ -100,7 +100,7 @@ impl<'a> Data<'a> {
     /// See [`Objective::standing`]: on the lines that starts are tried on.
     pub(super) fn standing(&self, entries: &[Place], estimate: &Estimate) -> f64 {
         match &self.thinned_whole {
-            Some(whole) => whole.objective(entries).standing(estimate),
+            Some(whole) => whole.objective(entries).standing(estimate, self.noise),
             None => estimate.misfit,
         }
     }

@@ -132,7 +132,7 @@ pub(super) fn finalists_of_own_lines(
 }
 
 /// Takes the minima away beside which another one stands so much better that they are none.
-fn rule_out(finals: &mut [Final], whole: &Objective<'_>) {
+fn rule_out(finals: &mut [Final], whole: &Objective<'_>, noise: &Noise) {
     let ends = || finals.iter().filter(|one| one.end.is_some());
     if ends().count() < 2 {
         return;
@@ -141,7 +141,7 @@ fn rule_out(finals: &mut [Final], whole: &Objective<'_>) {
     for end in finals.iter_mut().filter_map(|one| one.end.as_mut()) {
         let standing = end
             .standing
-            .unwrap_or_else(|| whole.standing(&end.estimate));
+            .unwrap_or_else(|| whole.standing(&end.estimate, noise));
         end.standing = Some(standing);
         best = best.min(standing + handicap(&end.estimate));
     }
@@ -194,7 +194,7 @@ pub(super) fn finalists(
         });
     }
     if !whole.is_independent() {
-        rule_out(&mut finals, &whole);
+        rule_out(&mut finals, &whole, noise);
     }
     finals.sort_by(|a, b| a.rank().total_cmp(&b.rank()));
     Finals {

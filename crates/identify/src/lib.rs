@@ -61,6 +61,7 @@ mod search;
 mod seen;
 mod sensitivity;
 mod slips;
+mod standing;
 mod starts;
 mod strip;
 mod study;

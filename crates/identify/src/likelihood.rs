@@ -3,58 +3,10 @@
 use num_complex::Complex64;
 
 use super::block::Block;
-use super::estimator::Estimate;
 use super::group::Group;
 use super::objective::{Objective, Weights};
 
 impl Objective<'_> {
-    /// −2 log-likelihood up to a constant by which minima are ranked: at each value the errors of the substructures are part of the
-    /// variance, and the noise is as stated or more. Infinite where a line cannot be computed.
-    ///
-    /// The sum that is minimised does not rank them. Corrections of the substructures can explain anything where a joint makes them act
-    /// strongly enough, and such a joint leaves out the lines at which they act too strongly. Here all lines count, and so does
-    /// what a joint says of its own scatter: Σ ln σ².
-    pub(super) fn standing(&self, estimate: &Estimate) -> f64 {
-        self.marginal_misfit(estimate).unwrap_or(f64::INFINITY)
-    }
-
-    fn marginal_misfit(&self, estimate: &Estimate) -> Option<f64> {
-        let unknowns = &estimate.unknowns;
-        let weights = self.marginal_weights(estimate.levels, unknowns)?;
-        let mut first_block = vec![0];
-        first_block.extend(self.groups.iter().scan(0, |blocks, group| {
-            *blocks += group.blocks.len();
-            Some(*blocks)
-        }));
-        let mut cost = 0.0;
-        self.visit(
-            &self.unweighted(unknowns.clone(), None),
-            &mut |number, line| {
-                let mut residual = line.residual.as_slice();
-                for (block, weights) in self.groups[number]
-                    .blocks
-                    .iter()
-                    .zip(&weights[first_block[number]..])
-                {
-                    let (own, others) = residual.split_at(block.entries.len());
-                    residual = others;
-                    let variances = &weights.entries[line.index * own.len()..];
-                    let pairs = own.iter().zip(variances);
-                    cost += pairs
-                        .map(|(r, variance)| r.norm_sqr() / variance)
-                        .sum::<f64>();
-                }
-            },
-        )?;
-        let count = self.measurements() as f64;
-        let mean_square = cost / count;
-        let of_each = match mean_square {
-            ..=1.0 => mean_square,
-            _ => 1.0 + mean_square.ln(),
-        };
-        Some(2.0 * (count * of_each + log_variances(&weights)))
-    }
-
     /// Σ ln σ² over measurements beyond the first of each entry.
     pub(super) fn log_variances_of_scatter(&self, weights: &[Weights]) -> f64 {
         let of_group = |(group, weights): (&Group, &Weights)| {

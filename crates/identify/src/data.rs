@@ -14,6 +14,7 @@ use super::lines::Lines;
 use super::noise::{Levels, Noise};
 use super::objective::{Objective, State, Weights};
 use super::residuals::Residuals;
+use super::trials::same;
 use super::used::{self, Chosen};
 use super::{parallel, starts};
 
@@ -97,11 +98,32 @@ impl<'a> Data<'a> {
         counts.sum()
     }
 
-    /// See [`Objective::standing`]: on the lines that starts are tried on.
-    pub(super) fn standing(&self, entries: &[Place], estimate: &Estimate) -> f64 {
-        match &self.thinned_whole {
-            Some(whole) => whole.objective(entries).standing(estimate, self.noise),
-            None => estimate.misfit,
+    /// Gives each estimate its standing on the lines that starts are tried on, where there are substructures with errors and
+    /// different estimates.
+    pub(super) fn rank(&self, entries: &[Place], estimates: &mut [Estimate]) {
+        let Some(whole) = &self.thinned_whole else {
+            return;
+        };
+        let is_first_of_its_kind = |index: &usize| {
+            let is_same = |other: &Estimate| same(other, &estimates[*index]);
+            !estimates[..*index].iter().any(is_same)
+        };
+        let kinds: Vec<usize> = (0..estimates.len()).filter(is_first_of_its_kind).collect();
+        if kinds.len() < 2 {
+            return;
+        }
+        let whole = whole.objective(entries);
+        let standings = parallel::map(&kinds, |&kind| {
+            let one = &estimates[kind];
+            let known = one.standing;
+            known.unwrap_or_else(|| whole.standing(one, self.noise))
+        });
+        for index in 0..estimates.len() {
+            let of_its_kind = kinds.iter().zip(&standings);
+            let mut of_its_kind =
+                of_its_kind.filter(|(kind, _)| same(&estimates[**kind], &estimates[index]));
+            let standing = of_its_kind.next().map(|(_, standing)| *standing);
+            estimates[index].standing = standing;
         }
     }
 

@@ -56,8 +56,8 @@ pub(super) struct Estimate {
     pub(super) cost: f64,
     /// −2 log-likelihood up to a constant; where noise is not stated the common scale of the variances is profiled out.
     pub(super) misfit: f64,
-    /// −2 log-likelihood on all lines that starts are tried on, by which minima are ranked; see [`Objective::standing`].
-    pub(super) standing: f64,
+    /// [`Objective::standing`] on all lines that starts are tried on, once there is another estimate to be ranked with.
+    pub(super) standing: Option<f64>,
     /// Complex numbers measured.
     pub(super) measurements: usize,
     /// Real residuals minus unknowns.
@@ -206,12 +206,11 @@ pub(super) fn arrived(
     let log_determinant = objective.log_variances_of_scatter(&weights) + log_variances(&weights)
         - objective.log_powers();
     let cost = state.normal.cost;
-    let misfit = misfit(noise, cost, log_determinant, measurements);
     Estimate {
         unknowns: state.unknowns,
         cost,
-        misfit,
-        standing: misfit,
+        misfit: misfit(noise, cost, log_determinant, measurements),
+        standing: None,
         measurements,
         degrees_of_freedom: (2 * measurements).saturating_sub(unknowns),
         information: state.normal.matrix,

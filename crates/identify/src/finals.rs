@@ -8,7 +8,7 @@ use super::estimator::{Estimate, Free, estimate};
 use super::layout::Place;
 use super::noise::Noise;
 use super::objective::Objective;
-use super::trials::{best_trials, handicap, same};
+use super::trials::{best_trials, handicap, rank, same};
 
 /// Where less than this part of the lines is used, it is seen whether the estimate itself could use more …
 const FEW: f64 = 0.9;
@@ -48,7 +48,7 @@ impl Final {
     /// Whether it is beyond doubt on all lines, and `other` too far from it on the few, or no minimum.
     fn rules_out(&self, other: &Estimate) -> bool {
         let is_certain = |end: &End| end.estimate.converged && end.assessment.is_certain();
-        let is_far = other.standing - self.candidate.standing > RULED_OUT;
+        let is_far = rank(other) - rank(&self.candidate) > RULED_OUT;
         self.end.as_ref().is_some_and(is_certain) && (is_far || !other.converged)
     }
 
@@ -173,7 +173,10 @@ pub(super) fn finalists(
         }
         let is_it = |end: &Final| same(&end.candidate, candidate);
         if let Some(place) = known.iter().position(is_it) {
-            finals.push(known.swap_remove(place));
+            finals.push(Final {
+                candidate: candidate.clone(),
+                ..known.swap_remove(place)
+            });
             continue;
         }
         finals = finals.into_iter().map(Final::without_corrections).collect();

@@ -80,11 +80,10 @@ pub(super) fn robust(
         noise.levels(whole.level(noise, &whole.unweighted(unknowns, None), 1.0)?)
     };
     let (cost, measurements) = (state.normal.cost, exact.measurements());
-    let misfit = misfit(noise, cost, log_variances(&weights), measurements);
     Some(Estimate {
         cost,
-        misfit,
-        standing: misfit,
+        misfit: misfit(noise, cost, log_variances(&weights), measurements),
+        standing: None,
         measurements,
         degrees_of_freedom: (2 * measurements).saturating_sub(start.len()),
         information: state.normal.matrix,

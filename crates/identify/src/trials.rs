@@ -82,10 +82,7 @@ pub(super) fn try_starts(
         let few = used.assemblies.objective(entries).as_searched();
         let (levels, start) = (Some(robust.levels), &robust.unknowns);
         let end = estimate(&few, noise, levels, &Free, start, None)?;
-        Some(Estimate {
-            standing: data.standing(entries, &end),
-            ..end.without_corrections()
-        })
+        Some(end.without_corrections())
     });
     let led = comparable.into_iter().zip(ends);
     let left = others.into_iter().map(|robust| (robust, None));
@@ -123,9 +120,9 @@ pub(super) fn best_trials(trials: &[Estimate]) -> Vec<&Estimate> {
     chosen
 }
 
-/// What estimates from few lines are ranked by: their standing, with a handicap for those that have not converged.
-fn rank(estimate: &Estimate) -> f64 {
-    estimate.standing + handicap(estimate)
+/// What estimates from few lines are ranked by, with a handicap for those that have not converged.
+pub(super) fn rank(estimate: &Estimate) -> f64 {
+    estimate.standing.unwrap_or(estimate.misfit) + handicap(estimate)
 }
 
 /// What is added to the −2 log-likelihood of an estimate that has not converged before it is ranked.

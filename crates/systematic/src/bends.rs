@@ -41,8 +41,7 @@ pub(crate) struct Bend {
     jump: f64,
 }
 
-/// That of each bolt whose position, and that of another one, is known. 1/EI is the largest beside any bolt: what drive points
-/// tell of one that is not at the structure's end is too little.
+/// That of each bolt whose position, and that of another one, is known.
 pub(crate) fn between_bolts(
     positions_m: &[Option<f64>],
     flexibility: f64,

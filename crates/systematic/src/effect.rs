@@ -1,11 +1,11 @@
 //! What causes do to measured functions: z = φ (h + a), with a factor φ and a part a beside the true receptances h.
 
-use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet};
 use super::experiment::{ComplexMatrix, Entry, MeasuredFunctions};
+use super::slope::PointSlopes;
 
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
 
@@ -23,8 +23,7 @@ pub(crate) struct At<'f> {
 /// What slopes are made of.
 #[derive(Clone, Copy)]
 pub(crate) struct Slopes<'f> {
-    /// Weights of the motions of labels, of A's DOFs at the joint and of B's in the slope at each label.
-    pub(crate) weights: &'f DMatrix<f64>,
+    pub(crate) of_points: &'f PointSlopes,
     /// Motions at the joint, A's and B's, by loads at the labels.
     pub(crate) at_joint: &'f ComplexMatrix,
 }
@@ -224,7 +223,7 @@ impl At<'_> {
         let (row, column) = entry.place;
         let labels = self.truth.nrows();
         let slope = |label: usize| -> Complex64 {
-            let weights = slopes.weights.row(point);
+            let weights = slopes.of_points.weights.row(point);
             let of_all = weights
                 .iter()
                 .enumerate()
@@ -236,7 +235,7 @@ impl At<'_> {
                 };
                 motion * weight
             });
-            terms.sum()
+            terms.sum::<Complex64>() + slopes.of_points.by_loads[(point, label)]
         };
         let at_row = if row == point { slope(column) } else { ZERO };
         let at_column = if column == point { slope(row) } else { ZERO };

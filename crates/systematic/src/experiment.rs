@@ -9,7 +9,7 @@ use super::bending::flexibility_from_drive_points;
 use super::bends::{AtBolt, between_bolts};
 use super::cause::Side;
 use super::modal_fit::ModalFit;
-use super::slope::{Kind, Place, slope};
+use super::slope::{Kind, Place, PointSlopes, slope};
 
 /// Receptances of one line.
 pub type ComplexMatrix = DMatrix<Complex64>;
@@ -131,12 +131,17 @@ impl Measured {
         new
     }
 
+    /// 1/EI, rad/(N·m²): the largest beside any bolt, since what drive points tell of one that is not at the structure's end is too
+    /// little.
+    fn flexibility(&self) -> f64 {
+        let of_bolts = self.at_bolts.iter().map(|bolt| bolt.flexibility);
+        of_bolts.fold(0.0, f64::max)
+    }
+
     /// With the positions of the bolts along the structure, m, where they are known.
     #[must_use]
     pub fn with_bolts_at(mut self, positions_m: &[Option<f64>], joint: &JointShape) -> Self {
-        let flexibility = self.at_bolts.iter().map(|bolt| bolt.flexibility);
-        let flexibility = flexibility.fold(0.0, f64::max);
-        let bends = between_bolts(positions_m, flexibility, joint);
+        let bends = between_bolts(positions_m, self.flexibility(), joint);
         for (bolt, bend) in self.at_bolts.iter_mut().zip(bends) {
             bolt.bend = bend;
         }
@@ -253,11 +258,11 @@ impl<'a> Experiment<'a> {
         *first.functions.positions_m.get(point)?
     }
 
-    /// Weights in the slope at each point of the motions of all points, of A's DOFs at the joint and of B's, on structures that are
-    /// not computed anew; `None` where no position is known.
-    pub(crate) fn slopes(&self) -> Option<DMatrix<f64>> {
+    /// Slopes at the points of structures that are not computed anew; `None` where no position is known.
+    pub(crate) fn slopes(&self) -> Option<PointSlopes> {
         let (points, dofs) = (self.points(), self.joint.dofs);
         let mut weights = DMatrix::zeros(points, points + 2 * dofs);
+        let mut by_loads = DMatrix::zeros(points, points);
         for (side, first) in [(Side::A, points), (Side::B, points + dofs)] {
             if matches!(self.side(side), Structure::Computed(_)) {
                 continue;
@@ -273,16 +278,23 @@ impl<'a> Experiment<'a> {
             let known: Vec<Place> = known.collect();
             let mut places = known.clone();
             places.extend(self.bolts_on(side, first));
+            let loads_m: Vec<f64> = known.iter().map(|place| place.x_m).collect();
+            let flexibility = match self.side(side) {
+                Structure::Measured(measured) => measured.flexibility(),
+                Structure::Computed(_) | Structure::Exact(_) => 0.0,
+            };
             for place in &known {
-                for (motion, weight) in slope(place.x_m, &places) {
+                let slope = slope(place.x_m, &places, &loads_m);
+                for (motion, weight) in slope.weights {
                     weights[(place.translation, motion)] += weight;
+                }
+                for (load, of_unit) in known.iter().zip(slope.by_loads) {
+                    by_loads[(place.translation, load.translation)] = of_unit * flexibility;
                 }
             }
         }
-        weights
-            .iter()
-            .any(|weight| *weight != 0.0)
-            .then_some(weights)
+        let is_known = weights.iter().any(|weight| *weight != 0.0);
+        is_known.then_some(PointSlopes { weights, by_loads })
     }
 
     /// The bolts of a structure whose place among its points is known; its DOFs at the joint begin at `first`.

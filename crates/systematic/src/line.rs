@@ -10,13 +10,14 @@ use super::cause::{Cause, MeasuredSet, Side};
 use super::coupling::{Coupled, DynamicStiffness, JointValues};
 use super::effect::{At, Slopes};
 use super::experiment::{Assembly, ComplexMatrix, Entry, Experiment, Structure};
+use super::slope::PointSlopes;
 use super::structures::Recomputations;
 
 /// What does not change during a search.
 pub(crate) struct Task<'t> {
     pub(crate) experiment: &'t Experiment<'t>,
     pub(crate) priors: &'t [Prior],
-    slopes: Option<DMatrix<f64>>,
+    slopes: Option<PointSlopes>,
 }
 
 /// Joint and causes at one moment of the search.
@@ -178,8 +179,8 @@ impl<'t> Task<'t> {
             functions: &self.experiment.assemblies[number].functions,
             truth: &coupled.receptance,
             omega,
-            slopes: self.slopes.as_ref().map(|weights| Slopes {
-                weights,
+            slopes: self.slopes.as_ref().map(|of_points| Slopes {
+                of_points,
                 at_joint: &coupled.q,
             }),
         }

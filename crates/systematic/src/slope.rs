@@ -2,7 +2,9 @@
 //! said to be.
 //!
 //! Between two bolts nothing acts on a structure but its own inertia, so that a polynomial through translations, and through
-//! rotations where these are known, follows it. At a bolt a force and a moment act: a polynomial across it does not.
+//! rotations where these are known, follows it. At a bolt a force and a moment act: a polynomial across it does not. Where the
+//! load of a function acts at ξ, its shear force jumps, and the third derivative by 1/EI: the polynomial is that of
+//! w − |x − ξ|³/12EI.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -30,9 +32,26 @@ pub(crate) enum Kind {
     Bolt { rotation: Option<usize> },
 }
 
-/// Motions and their weights in the slope dw/dx at a position, by the polynomial through the nearest places that no bolt is between;
-/// empty where one place alone is there.
-pub(crate) fn slope(x_m: f64, places: &[Place]) -> Vec<(usize, f64)> {
+/// The slopes at all points of an assembly.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PointSlopes {
+    /// In each row the weights of the motions of all points, of A's DOFs at the joint and of B's.
+    pub(crate) weights: DMatrix<f64>,
+    /// In each row what a unit force at each of the points adds, rad/N.
+    pub(crate) by_loads: DMatrix<f64>,
+}
+
+/// The slope dw/dx at a position.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Slope {
+    /// Motions and their weights in it; none where one place alone is there.
+    pub(crate) weights: Vec<(usize, f64)>,
+    /// What the jump of each load adds, for a unit force and EI of one, m².
+    pub(crate) by_loads: Vec<f64>,
+}
+
+/// By the polynomial through the nearest places that no bolt is between; the loads act at these positions, m.
+pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64]) -> Slope {
     let mut order: Vec<&Place> = places.iter().collect();
     order.sort_by(|one, other| one.x_m.total_cmp(&other.x_m));
     let is_bolt = |place: &&Place| place.kind != Kind::Point;
@@ -46,35 +65,98 @@ pub(crate) fn slope(x_m: f64, places: &[Place]) -> Vec<(usize, f64)> {
     let from = rank
         .saturating_sub(NEAR / 2)
         .min(span.len().saturating_sub(NEAR));
-    through(x_m, &span[from..(from + NEAR).min(span.len())])
+    let near = &span[from..(from + NEAR).min(span.len())];
+    let conditions = conditions(x_m, near);
+    let weights = weights(x_m, &conditions);
+    let by_load = |load_m: &f64| {
+        let reached = conditions.iter().zip(&weights);
+        let of_places = reached.map(|(condition, weight)| {
+            let distance = condition.x_m - load_m;
+            weight
+                * if condition.is_rotation {
+                    jump_slope(distance)
+                } else {
+                    jump(distance)
+                }
+        });
+        jump_slope(x_m - load_m) - of_places.sum::<f64>()
+    };
+    Slope {
+        by_loads: match weights.is_empty() {
+            true => vec![0.0; loads_m.len()],
+            false => loads_m.iter().map(by_load).collect(),
+        },
+        weights: conditions
+            .iter()
+            .map(|one| one.motion)
+            .zip(weights)
+            .collect(),
+    }
 }
 
-fn through(x_m: f64, near: &[&Place]) -> Vec<(usize, f64)> {
-    let length = near.iter().map(|place| (place.x_m - x_m).abs());
-    let length = length.fold(0.0, f64::max);
-    // rows of 1, t, t² … and of their derivatives, t = (x − x₀)/L
-    let mut conditions: Vec<(usize, f64, bool)> = Vec::new();
+/// |d|³/12, whose third derivative jumps by one.
+fn jump(distance_m: f64) -> f64 {
+    distance_m.abs().powi(3) / 12.0
+}
+
+/// Its derivative.
+fn jump_slope(distance_m: f64) -> f64 {
+    distance_m * distance_m.abs() / 4.0
+}
+
+/// What a polynomial has to meet.
+struct Condition {
+    motion: usize,
+    x_m: f64,
+    is_rotation: bool,
+}
+
+/// The rotation alone where the position is that of a bolt.
+fn conditions(x_m: f64, near: &[&Place]) -> Vec<Condition> {
+    let reach = reach(x_m, near.iter().map(|place| place.x_m));
+    let mut conditions = Vec::new();
     for place in near {
-        let t = (place.x_m - x_m) / length;
+        let condition = |motion: usize, is_rotation: bool| Condition {
+            motion,
+            x_m: place.x_m,
+            is_rotation,
+        };
         if let Kind::Bolt {
             rotation: Some(rotation),
         } = place.kind
         {
-            if length == 0.0 || t.abs() < AT_A_BOLT {
-                return vec![(rotation, 1.0)];
+            if (place.x_m - x_m).abs() <= AT_A_BOLT * reach {
+                return vec![condition(rotation, true)];
             }
-            conditions.push((rotation, t, true));
+            conditions.push(condition(rotation, true));
         }
-        conditions.push((place.translation, t, false));
+        conditions.push(condition(place.translation, false));
     }
+    conditions
+}
+
+/// Distance of the furthest of some positions.
+fn reach(x_m: f64, positions_m: impl Iterator<Item = f64>) -> f64 {
+    positions_m.fold(0.0, |furthest, x| furthest.max((x - x_m).abs()))
+}
+
+/// Of each condition its weight in the slope; none where they do not determine one.
+fn weights(x_m: f64, conditions: &[Condition]) -> Vec<f64> {
+    if let [only] = conditions
+        && only.is_rotation
+    {
+        return vec![1.0];
+    }
+    let length = reach(x_m, conditions.iter().map(|condition| condition.x_m));
     let count = conditions.len();
     if count < 2 || length == 0.0 {
         return Vec::new();
     }
+    // rows of 1, t, t² … and of their derivatives, t = (x − x₀)/L
     let matrix = DMatrix::from_fn(count, count, |row, power| {
-        let (_, t, is_rotation) = conditions[row];
+        let t = (conditions[row].x_m - x_m) / length;
         let power = power as i32;
-        match (is_rotation, power) {
+        match (conditions[row].is_rotation, power) {
             (false, _) => t.powi(power),
             (true, 0) => 0.0,
             (true, _) => f64::from(power) * t.powi(power - 1) / length,
@@ -83,13 +165,8 @@ fn through(x_m: f64, near: &[&Place]) -> Vec<(usize, f64)> {
     // w′(x₀) = c₁/L of the coefficients c
     let mut wanted = DVector::zeros(count);
     wanted[1] = length.recip();
-    match matrix.transpose().lu().solve(&wanted) {
-        Some(weights) => {
-            let pairs = conditions.iter().zip(weights.iter());
-            pairs.map(|(&(of, ..), &weight)| (of, weight)).collect()
-        }
-        None => Vec::new(),
-    }
+    let solved = matrix.transpose().lu().solve(&wanted);
+    solved.map_or_else(Vec::new, |weights| weights.iter().copied().collect())
 }
 
 #[cfg(test)]
@@ -120,7 +197,7 @@ mod tests {
             let degree = (count - 1).min(4) as i32;
             let motions: Vec<f64> = x.iter().map(|x| x.powi(degree)).collect();
             for &x in x {
-                let found = at(&motions, &slope(x, &places));
+                let found = at(&motions, &slope(x, &places, &[]).weights);
                 let exact = f64::from(degree) * x.powi(degree - 1);
                 assert!(
                     (found - exact).abs() < 1e-9,
@@ -130,8 +207,9 @@ mod tests {
         }
         // a line through two, and nothing through one
         let places = [point(0, 0.0), point(1, 0.5)];
-        assert!((at(&[0.0, 1.0], &slope(0.0, &places)) - 2.0).abs() < 1e-12);
-        assert_eq!(slope(0.0, &places[..1]), []);
+        assert!((at(&[0.0, 1.0], &slope(0.0, &places, &[]).weights) - 2.0).abs() < 1e-12);
+        let alone = slope(0.0, &places[..1], &[0.0]);
+        assert_eq!((alone.weights, alone.by_loads), (vec![], vec![0.0]));
     }
 
     /// w = |x − 0.1|³ beyond a bolt at 0.1 and 0.2 (x − 0.1) before it, to which points on the other side are no guide.
@@ -152,10 +230,31 @@ mod tests {
         let mut motions: Vec<f64> = x.iter().map(|&x| w(x)).collect();
         motions.extend([0.0, 0.2]);
         for (x, exact) in [(0.0, 0.2), (0.05, 0.2), (0.15, 0.2075), (0.3, 0.32)] {
-            let found = at(&motions, &slope(x, &places));
+            let found = at(&motions, &slope(x, &places, &[]).weights);
             assert!((found - exact).abs() < 1e-12, "{x}: {found}, not {exact}");
         }
         // at the bolt itself its rotation
-        assert_eq!(slope(0.1, &places), [(5, 1.0)]);
+        let at_bolt = slope(0.1, &places, &[0.3]);
+        assert_eq!(
+            (at_bolt.weights, at_bolt.by_loads),
+            (vec![(5, 1.0)], vec![0.0])
+        );
+    }
+
+    /// A beam of EI = 7 with a force at ξ: a cubic and (x − ξ)³₊/6EI.
+    #[test]
+    fn a_load_between_the_points_makes_no_error() {
+        let (stiffness, load) = (7.0, 0.42);
+        let x = [0.1_f64, 0.25, 0.42, 0.6, 0.9];
+        let places: Vec<Place> = x.iter().enumerate().map(|(i, &x)| point(i, x)).collect();
+        let beyond = |x: f64| (x - load).max(0.0);
+        let w = |x: f64| 1.0 - x + x.powi(3) + beyond(x).powi(3) / (6.0 * stiffness);
+        let motions: Vec<f64> = x.iter().map(|&x| w(x)).collect();
+        for x in x {
+            let exact = 3.0 * x * x - 1.0 + beyond(x).powi(2) / (2.0 * stiffness);
+            let slope = slope(x, &places, &[load]);
+            let found = at(&motions, &slope.weights) + slope.by_loads[0] / stiffness;
+            assert!((found - exact).abs() < 1e-12, "{x}: {found}, not {exact}");
+        }
     }
 }

@@ -10,6 +10,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Places that a slope is taken through, two to each side inside.
 const NEAR: usize = 5;
+/// Conditions that a cubic meets. Fewer leave open on which side of a load the third derivative is, so that a jump of it adds nothing.
+const CUBIC: usize = 4;
 /// Part of the distance of the nearest place within which a point is at a bolt.
 const AT_A_BOLT: f64 = 1e-9;
 
@@ -82,9 +84,9 @@ pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64]) -> Slope {
         jump_slope(x_m - load_m) - of_places.sum::<f64>()
     };
     Slope {
-        by_loads: match weights.is_empty() {
-            true => vec![0.0; loads_m.len()],
-            false => loads_m.iter().map(by_load).collect(),
+        by_loads: match weights.len() {
+            ..CUBIC => vec![0.0; loads_m.len()],
+            _ => loads_m.iter().map(by_load).collect(),
         },
         weights: conditions
             .iter()

@@ -74,12 +74,11 @@ pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64]) -> Slope {
         let reached = conditions.iter().zip(&weights);
         let of_places = reached.map(|(condition, weight)| {
             let distance = condition.x_m - load_m;
-            weight
-                * if condition.is_rotation {
-                    jump_slope(distance)
-                } else {
-                    jump(distance)
-                }
+            let there = match condition.is_rotation {
+                true => jump_slope(distance),
+                false => jump(distance),
+            };
+            weight * there
         });
         jump_slope(x_m - load_m) - of_places.sum::<f64>()
     };

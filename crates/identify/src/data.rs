@@ -100,30 +100,35 @@ impl<'a> Data<'a> {
 
     /// Gives each estimate its standing on the lines that starts are tried on, where there are substructures with errors and
     /// different estimates.
-    pub(super) fn rank(&self, entries: &[Place], estimates: &mut [Estimate]) {
+    pub(super) fn give_standings(&self, entries: &[Place], estimates: &mut [Estimate]) {
         let Some(whole) = &self.thinned_whole else {
             return;
         };
-        let is_first_of_its_kind = |index: &usize| {
-            let is_same = |other: &Estimate| same(other, &estimates[*index]);
-            !estimates[..*index].iter().any(is_same)
+        let first_alike = |index: usize| {
+            let is_alike = |other: &usize| same(&estimates[*other], &estimates[index]);
+            (0..index).find(is_alike).unwrap_or(index)
         };
-        let kinds: Vec<usize> = (0..estimates.len()).filter(is_first_of_its_kind).collect();
-        if kinds.len() < 2 {
+        let first_alike: Vec<usize> = (0..estimates.len()).map(first_alike).collect();
+        let of_all = first_alike.iter().enumerate();
+        let different: Vec<usize> = of_all
+            .filter(|(index, first)| index == *first)
+            .map(|(index, _)| index)
+            .collect();
+        if different.len() < 2 {
             return;
         }
         let whole = whole.objective(entries);
-        let standings = parallel::map(&kinds, |&kind| {
-            let one = &estimates[kind];
+        let standings = parallel::map(&different, |&index| {
+            let one = &estimates[index];
             let known = one.standing;
             known.unwrap_or_else(|| whole.standing(one, self.noise))
         });
-        for index in 0..estimates.len() {
-            let of_its_kind = kinds.iter().zip(&standings);
-            let mut of_its_kind =
-                of_its_kind.filter(|(kind, _)| same(&estimates[**kind], &estimates[index]));
-            let standing = of_its_kind.next().map(|(_, standing)| *standing);
-            estimates[index].standing = standing;
+        for (index, standing) in different.into_iter().zip(standings) {
+            estimates[index].standing = Some(standing);
+        }
+        // the first one stands before those that are alike
+        for (index, first) in first_alike.into_iter().enumerate() {
+            estimates[index].standing = estimates[first].standing;
         }
     }
 

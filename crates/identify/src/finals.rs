@@ -146,11 +146,8 @@ fn rule_out(finals: &mut [Final], whole: &Objective<'_>, noise: &Noise) {
         best = best.min(standing + handicap(&end.estimate));
     }
     for one in finals {
-        let is_behind = |end: &mut End| {
-            let standing = end.standing.unwrap_or(f64::INFINITY);
-            standing - best > RULED_OUT
-        };
-        one.end.take_if(is_behind);
+        let is_behind = |standing: f64| standing - best > RULED_OUT;
+        one.end.take_if(|end| end.standing.is_some_and(is_behind));
     }
 }
 

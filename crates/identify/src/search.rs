@@ -77,7 +77,7 @@ pub(super) fn best(
         trials.extend(try_starts(data, entries, noise, others, &mut ways));
         tried = candidates.len();
     }
-    data.rank(entries, &mut trials);
+    data.give_standings(entries, &mut trials);
     let search = |trials: &[Estimate], known: Option<Finals>| match used {
         Some(used) => Some(finalists(used, entries, noise, trials, known)),
         None => finalists_of_own_lines(data, entries, noise, trials, known),
@@ -99,7 +99,7 @@ pub(super) fn best(
             }
             tried += part.len();
             trials.extend(try_starts(data, entries, noise, part, &mut ways));
-            data.rank(entries, &mut trials);
+            data.give_standings(entries, &mut trials);
             finals = search(&trials, finals);
         }
     }

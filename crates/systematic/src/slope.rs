@@ -44,7 +44,7 @@ pub(crate) struct PointSlopes {
 }
 
 /// The slope dw/dx at a position.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slope {
     /// Motions and their weights in it; none where one place alone is there.
     pub(crate) weights: Vec<(usize, f64)>,

@@ -60,18 +60,18 @@ fn parts_of_a_bootstrap_are_the_whole_to_the_bit() {
 fn parts_of_a_bootstrap_with_an_error_budget_are_the_whole_to_the_bit() {
     let bench = demo();
     bench.edit("d/study.toml", "budget = \"none\"", "");
-    let bootstrap = "identify d/study.toml --bootstrap 4 --no-rivals";
+    let bootstrap = "identify d/study.toml --bootstrap 2 --no-rivals";
     let whole = bench.done(&format!("{bootstrap} -o o.joint.json"));
     has(
         &whole.stdout,
-        &["4 draws of noise and of errors of the set-up"],
+        &["2 draws of noise and of errors of the set-up"],
     );
-    let names = parts(&bench, bootstrap, &["0..1", "1..4"]);
+    let names = parts(&bench, bootstrap, &["0..1", "1..2"]);
     bench.done(&format!(
         "merge d/study.toml {names} -o m.joint.json --no-rivals --report m.html"
     ));
     assert_eq!(bench.text("m.joint.json"), bench.text("o.joint.json"));
-    has(&bench.text("m.html"), &["4 draws of noise and"]);
+    has(&bench.text("m.html"), &["2 draws of noise and"]);
 }
 
 #[test]

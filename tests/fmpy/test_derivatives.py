@@ -109,7 +109,6 @@ def test_element(slave, case):
         assert_equal(found_jacobian(instance, unknowns, knowns), jacobian(outputs, knowns))
 
 
-@both_versions
 @pytest.mark.parametrize("case", CASES)
 def test_lap(slave, case):
     file = LAPS[case]

@@ -111,7 +111,6 @@ def test_a_random_walk_of_iwan_s_law_is_that_of_the_reversal_stack(slave):
         assert found[2] == reversal, index
 
 
-@both_versions
 def test_the_tangent_of_iwan_s_law_is_that_of_the_trial(slave):
     instance = slave(with_friction(IWAN), "element")
     instance.initialise()
@@ -262,7 +261,6 @@ def test_a_state_in_the_middle_of_a_loop_goes_on_to_the_bit(slave, laws):
     assert np.array_equal(drive(third, 170, 400, outputs), expected[170:])
 
 
-@both_versions
 @pytest.mark.parametrize("laws", ALL)
 def test_work_is_what_is_stored_and_the_heat(slave, laws):
     instance = slave(changed(with_friction(*laws), damping=[[0.0]]), "element")
@@ -285,7 +283,6 @@ def test_work_is_what_is_stored_and_the_heat(slave, laws):
     assert work == pytest.approx(stored + heat, rel=2e-4)
 
 
-@both_versions
 @pytest.mark.parametrize("laws", ALL)
 def test_model_exchange_commits_completed_steps_alone(slave, model, laws):
     """The importer's Runge–Kutta steps with a commit after each are those of the library, but for its cuts where the joint turns."""

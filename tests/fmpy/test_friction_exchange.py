@@ -49,7 +49,6 @@ def path(t):
     return r, v
 
 
-@both_versions
 @inner
 def test_an_importer_integrates_the_inner_state_along_a_random_path(model, name, fmi):
     """SciPy is the importer: FMPy's CVode holds inputs from one output point to the next."""
@@ -100,7 +99,6 @@ def lap(law, dofs=("y",)):
     return {**with_friction(law), "bodies": bodies}
 
 
-@both_versions
 @inner
 def test_cvode_integrates_the_inner_state_of_a_lap(export, name, fmi):
     law, force, end = LAWS[name], 6000.0, 0.008
@@ -142,7 +140,6 @@ def numbered(symbol):
     return symbol.replace(law, f"{law}_2")
 
 
-@both_versions
 @inner
 def test_two_laws_of_a_kind_have_an_inner_state_each(export, model, name, fmi):
     laws = [LAWS[name], SECOND[name]]
@@ -189,7 +186,6 @@ def test_two_laws_of_a_kind_have_an_inner_state_each(export, model, name, fmi):
         assert np.abs(result[output] - wanted).max() < 1e-6 * np.abs(wanted).max(), output
 
 
-@both_versions
 @pytest.mark.parametrize("interface", ["element", "lap"])
 @inner
 def test_derivatives_are_differences_also_by_the_inner_state(model, name, interface, fmi):

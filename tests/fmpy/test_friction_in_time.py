@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from instances import both_versions
 from joints import body, changed, joint
 from scipy.integrate import solve_ivp
 
@@ -130,7 +129,6 @@ def in_scipy(law, times):
     return found
 
 
-@both_versions
 @pytest.mark.parametrize("law", [IWAN, VALANIS, DAHL, BOUC_WEN, LUGRE], ids=lambda law: law["law"])
 def test_a_lap_follows_the_located_turns(slave, law):
     file = changed(

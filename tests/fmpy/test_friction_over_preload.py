@@ -200,7 +200,6 @@ ENTRIES = [law.entry for law in LAWS] + [
 ]
 
 
-@both_versions
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry["law"])
 def test_what_goes_in_place_is_what_the_springs_give_up(slave, fmi, entry):
     """The motion is held while the preload goes at random: the heat is what is stored less, and none where it rises."""
@@ -289,7 +288,6 @@ def test_a_lap_balances_while_its_bolt_loosens(slave, fmi, law):
     assert np.abs(balance).max() < 1e-5 * heat[-1], np.abs(balance).max() / heat[-1]
 
 
-@both_versions
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry["law"])
 def test_derivatives_by_the_preload_are_those_of_differences(slave, fmi, entry):
     instance = slave(joint_with(entry), "element")

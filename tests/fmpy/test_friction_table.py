@@ -100,7 +100,6 @@ def test_in_place_springs_give_up_heat_and_what_the_preload_does(slave, fmi, law
     assert let_go > 1e-5
 
 
-@both_versions
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.law)
 @pytest.mark.parametrize("preload", [2.0, 5.0, 8.0])
 def test_at_each_preload_it_is_what_is_exported_there(slave, fmi, law, preload):
@@ -158,7 +157,6 @@ def test_a_state_in_the_middle_goes_on_to_the_bit(slave, fmi, interface):
     assert np.array_equal(drive(third, 90, 200), expected[90:])
 
 
-@both_versions
 @pytest.mark.parametrize("law", [Jenkins, Iwan, Valanis], ids=lambda law: law.law)
 @pytest.mark.parametrize("course_of_preload", ["held", "moving"])
 def test_a_lap_balances_while_its_bolt_loosens(slave, fmi, law, course_of_preload):
@@ -232,7 +230,6 @@ def preload_at(time, end):
     return 8 - 5.9 * share**2 * (3 - 2 * share)
 
 
-@both_versions
 @pytest.mark.parametrize("law", [Jenkins, Iwan], ids=lambda law: law.law)
 def test_a_lap_that_loosens(slave, fmi, law):
     """Trajectory against fine steps of a second implementation."""
@@ -276,7 +273,6 @@ def test_in_model_exchange_it_commits_with_the_importer_s_steps(model, fmi, law)
 BODY_A = LOOSENING_1["bodies"]["a"]["stiffness"][0]
 
 
-@both_versions
 @pytest.mark.parametrize("interface", ["element", "lap"])
 @pytest.mark.parametrize("law", [*LAWS, None], ids=lambda law: law.law if law else "all")
 def test_derivatives_are_those_of_differences(slave, fmi, interface, law):

@@ -37,7 +37,6 @@ def simulated(instance, lap, applied):
     return np.array(states)
 
 
-@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_trajectory(slave, case):
     lap = Lap(LAPS[case])
@@ -111,7 +110,6 @@ def test_initial_state_outputs_and_energy(slave, case):
     assert energy[0] - energy[-1] == pytest.approx(lost, rel=2e-4)
 
 
-@both_versions
 @pytest.mark.parametrize("case", LAPS)
 def test_one_step_of_1_ms_is_fifty_of_20_us(slave, case):
     lap = Lap(LAPS[case])

@@ -49,7 +49,6 @@ def errors(found, expected):
     return np.abs(found - expected).max(axis=0) / scale
 
 
-@both_versions
 @pytest.mark.parametrize("case", LOOSENING)
 def test_a_preload_that_jumps(slave, case):
     """Held over each communication step, as plain importers do: trajectory, energies, and their balance."""
@@ -115,7 +114,6 @@ def test_a_preload_that_goes_on_within_the_step(slave, case):
     assert errors(found, expected).max() < 2e-6, errors(found, expected)
 
 
-@both_versions
 @pytest.mark.parametrize("end", ["first", "last"])
 def test_the_resonance_is_that_of_the_linear_model(slave, end):
     """Free vibration of the relative motion at both ends of the table: its frequency by the times of its zeros."""

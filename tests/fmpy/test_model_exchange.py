@@ -78,7 +78,6 @@ def test_a_load_that_varies_need_not_be_held(model, case):
     instance.fmu.completedIntegratorStep()
 
 
-@both_versions
 @pytest.mark.parametrize("case", CASES)
 def test_derivatives_of_the_accelerations(model, case):
     file = LAPS[case]

@@ -76,7 +76,6 @@ def amplitudes(file, supports):
     return found
 
 
-@both_versions
 @pytest.mark.parametrize("interface", ["element", "lap"])
 @pytest.mark.parametrize("case", [*ONE, *(f"{case} with rotation" for case in TWO)])
 def test_the_amplitude_is_the_first_root(slave, case, interface):

@@ -100,7 +100,6 @@ def test_every_set_of_degrees_of_freedom(instances, count):
                 assert found == pytest.approx([law.energy(r), law.power(r, v)], rel=1e-12)
 
 
-@both_versions
 @pytest.mark.parametrize("rows", [range(6), (0, 2, 4), (1, 3, 4, 5)], ids=["six", "x-z-ry", "y-rx-ry-rz"])
 def test_laps_move_as_scipy_says(instances, rows):
     rows = list(rows)

@@ -4,7 +4,11 @@
 //! So what it leaves is noise, and a value far off it is an outlier. No joint and no substructure takes part: errors of the
 //! set-up, and joint models that are too simple, are smooth.
 
+mod fit;
+
 use num_complex::Complex64;
+
+use fit::{ComplexWindow, Fit, Window};
 
 use super::noise::{Sample, Size, most_likely_level};
 
@@ -18,8 +22,10 @@ const UNKNOWNS: usize = NUMERATOR + DENOMINATOR;
 const FEWEST_LINES: usize = 3 * WINDOW;
 /// Windows that are enough to tell a level.
 const WINDOWS_FOR_LEVEL: usize = 600;
-/// Refinements of the level, each with the weights of the one before.
+/// Refinements of the level, each with the weights of the one before …
 const ROUNDS: usize = 5;
+/// … until they change it by less than this part of itself.
+const AT_REST: f64 = 1e-3;
 /// Squared deviation over its variance that noise does not reach: e⁻³⁰ of all values that are normal.
 const FAR: f64 = 30.0;
 /// Most rounds of leaving out.
@@ -38,8 +44,6 @@ const FEWEST_BESIDE: usize = 2;
 const SUSPICIOUS: f64 = 9.0;
 /// Data with less noise than this part of the function are computed ones, without outliers: what is left is the fit's own error.
 const LEAST_NOISE: f64 = 1e-4;
-/// A direction of the fit that is smaller than this part of its column tells nothing new.
-const NEGLIGIBLE: f64 = 1e-11;
 /// No floor is taken for less than this part of the function's median.
 const LEAST_FLOOR: f64 = 1e-12;
 
@@ -143,8 +147,12 @@ impl Function<'_> {
 
     /// The level under which the deviations are most likely, weights and level in turn; values that stand out are left out.
     fn settle(&mut self) {
+        let mut is_at_rest = false;
         for _ in 0..ROUNDS {
-            self.refine();
+            is_at_rest = self.refine();
+            if is_at_rest {
+                break;
+            }
         }
         for _ in 0..REMOVALS {
             let far = self.farthest();
@@ -155,12 +163,15 @@ impl Function<'_> {
             if self.used.len() < FEWEST_LINES {
                 break;
             }
+            is_at_rest = self.refine();
+        }
+        if !is_at_rest {
             self.refine();
         }
-        self.refine();
     }
 
-    fn refine(&mut self) {
+    /// Says whether the level stays what it was.
+    fn refine(&mut self) -> bool {
         let stride = self.used.len().div_ceil(WINDOWS_FOR_LEVEL);
         let places = (0..self.used.len()).step_by(stride);
         let samples: Vec<Sample> = places
@@ -175,7 +186,11 @@ impl Function<'_> {
                 })
             })
             .collect();
+        let before = self.level;
         self.level = most_likely_level(&samples, None);
+        let change =
+            (self.level.relative - before.relative).abs() + (self.level.floor - before.floor).abs();
+        change < AT_REST * (self.level.relative + self.level.floor)
     }
 
     /// Lines in use that are far off, each farther than any of those around it.
@@ -277,24 +292,35 @@ impl Function<'_> {
             Some(&other) => (self.frequency_hz[other] - centre) / reach,
             None => 0.0,
         });
-        let deviation = |k: usize| self.variance(window[k]).sqrt() * self.scale(window[k]);
-        let mut weights: [f64; WINDOW] = std::array::from_fn(|k| match k < length {
-            true => deviation(k).recip(),
-            false => 0.0,
+        let plain: [f64; WINDOW] = std::array::from_fn(|k| match window.get(k) {
+            Some(&other) => (self.variance(other).sqrt() * self.scale(other)).recip(),
+            None => 0.0,
         });
-        let plain = weights;
         let own = length - 1;
         // ω²H: what moves as a whole has no pole at zero there.
-        let value = |k: usize| self.values[window[k]] * self.scale(window[k]);
+        let part = |part: fn(Complex64) -> f64| {
+            Window::of(length, |k| {
+                part(self.values[window[k]]) * self.scale(window[k])
+            })
+        };
+        let values = ComplexWindow {
+            re: part(|value| value.re),
+            im: part(|value| value.im),
+        };
+        let orders = [numerator, denominator];
+        let places = Window::of(length, |k| x[k]);
+        let fit = |weights: &dyn Fn(usize) -> f64| {
+            Fit::of(&places, &values, &Window::of(length, weights), own, orders)
+        };
         // The line itself has no part in its denominator: a pole and a zero beside each other would take up any single value.
-        weights[own] = 0.0;
-        let first = Fit::of(&x[..length], value, &weights, numerator, denominator);
-        for k in 0..length {
-            let powers = 1..=denominator;
-            let parts = powers.map(|p| first.solution[numerator + p - 1] * x[k].powi(p as i32));
-            weights[k] = plain[k] / (1.0 + parts.sum::<Complex64>()).norm().max(1e-6);
-        }
-        let fit = Fit::of(&x[..length], value, &weights, numerator, denominator);
+        let first = fit(&|k| if k == own { 0.0 } else { plain[k] });
+        let fit = fit(&|k| {
+            let powers = first.solution[numerator..numerator + denominator].iter();
+            let divisor = powers
+                .rev()
+                .fold(Complex64::ZERO, |sum, own| (sum + own) * x[k]);
+            plain[k] / (1.0 + divisor).norm().max(1e-6)
+        });
         let free = 1.0 - fit.leverage;
         if free < 0.02 {
             return None;
@@ -309,78 +335,5 @@ impl Function<'_> {
             distance,
             around: (powers.sum::<f64>() - self.values[window[own]].norm_sqr()) / own as f64,
         })
-    }
-}
-
-/// A weighted linear fit: what it leaves of the last line.
-struct Fit {
-    solution: [Complex64; UNKNOWNS],
-    residual: Complex64,
-    leverage: f64,
-}
-
-impl Fit {
-    /// By Gram and Schmidt, twice for each column; columns that add nothing are left out.
-    fn of(
-        x: &[f64],
-        value: impl Fn(usize) -> Complex64,
-        weights: &[f64; WINDOW],
-        numerator: usize,
-        denominator: usize,
-    ) -> Self {
-        let unknowns = numerator + denominator;
-        let lines = x.len();
-        let mut q = [[Complex64::ZERO; WINDOW]; UNKNOWNS];
-        let mut r = [[Complex64::ZERO; UNKNOWNS]; UNKNOWNS];
-        let mut rest: [Complex64; WINDOW] = std::array::from_fn(|k| match k < lines {
-            true => value(k) * weights[k],
-            false => Complex64::ZERO,
-        });
-        let target = rest;
-        let mut right = [Complex64::ZERO; UNKNOWNS];
-        let dot = |a: &[Complex64; WINDOW], b: &[Complex64; WINDOW]| -> Complex64 {
-            a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
-        };
-        for column in 0..unknowns {
-            let mut own: [Complex64; WINDOW] = std::array::from_fn(|k| match k < lines {
-                false => Complex64::ZERO,
-                true if column < numerator => {
-                    Complex64::from(weights[k] * x[k].powi(column as i32))
-                }
-                true => -target[k] * x[k].powi((column - numerator + 1) as i32),
-            });
-            let before = dot(&own, &own).re;
-            for _ in 0..2 {
-                for earlier in 0..column {
-                    let part = dot(&q[earlier], &own);
-                    r[earlier][column] += part;
-                    for k in 0..lines {
-                        own[k] -= part * q[earlier][k];
-                    }
-                }
-            }
-            let size = dot(&own, &own).re.sqrt();
-            if size <= NEGLIGIBLE * before.sqrt() {
-                continue;
-            }
-            r[column][column] = Complex64::from(size);
-            q[column] = own.map(|value| value / size);
-            right[column] = dot(&q[column], &rest);
-            for k in 0..lines {
-                rest[k] -= right[column] * q[column][k];
-            }
-        }
-        let mut solution = [Complex64::ZERO; UNKNOWNS];
-        for row in (0..unknowns).rev() {
-            if r[row][row] != Complex64::ZERO {
-                let later: Complex64 = (row + 1..unknowns).map(|c| r[row][c] * solution[c]).sum();
-                solution[row] = (right[row] - later) / r[row][row];
-            }
-        }
-        Self {
-            solution,
-            residual: rest[lines - 1],
-            leverage: q.iter().map(|column| column[lines - 1].norm_sqr()).sum(),
-        }
     }
 }

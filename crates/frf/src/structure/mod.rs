@@ -1,5 +1,6 @@
 //! Substructures: where their receptances come from, and how a joint couples two of them.
 
+mod banded;
 mod beam;
 mod coupling;
 mod error;

@@ -4,6 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 use num_complex::Complex64;
 
 use super::StructureError;
+use super::banded::Banded;
 
 /// Mass, viscous damping and stiffness matrices in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,19 +110,12 @@ impl SpatialModel {
     pub fn modes(&self) -> Result<Modes, StructureError> {
         // K φ = ω² M φ with M = L Lᵀ: the eigenvectors q of L⁻¹ K L⁻ᵀ give φ = L⁻ᵀ q.
         let factor = Cholesky::new(self.mass.clone()).ok_or(StructureError::Mass)?;
-        let lower = factor.l();
-        let half = lower
-            .solve_lower_triangular(&self.stiffness)
-            .ok_or(StructureError::Mass)?;
-        let reduced = lower
-            .solve_lower_triangular(&half.transpose())
-            .ok_or(StructureError::Mass)?;
+        let lower = Banded::of(factor.l_dirty());
+        let half = lower.solve(self.stiffness.clone());
+        let reduced = lower.solve(half.transpose());
         let symmetric = (&reduced + reduced.transpose()) * 0.5;
         let eigen = SymmetricEigen::new(symmetric);
-        let vectors = lower
-            .transpose()
-            .solve_upper_triangular(&eigen.eigenvectors)
-            .ok_or(StructureError::Mass)?;
+        let vectors = lower.solve_transposed(eigen.eigenvectors);
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
         Ok(Modes {

@@ -3,6 +3,9 @@
 //! S. Krogstad, J. Comput. Phys. 203 (2005) 72, condensed on the relative motions of the joints: a step takes one product with the
 //! whole state, its four stages take products of the joints' own size. Its order is four. What it leaves of the joints' forces is
 //! the parabola of time through f₁, (f₂ + f₃)/2 and f₄.
+//!
+//! A step is short enough where its angles say so. They take every coordinate for a free mass, so that many a step is better than
+//! they know: where they say no, two halves are compared with the whole.
 
 use super::{
     ladder::{HALVINGS_AT_EVENTS, Ladder, Rung},
@@ -13,8 +16,9 @@ use super::{
 };
 use crate::law::{Corner, DOF_AT_REST, DofMemory};
 
-/// Angle h ω_t, with ω_t the highest frequency that the laws' tangents give the joints, up to which the scheme's error is a
-/// millionth over a period of that frequency; and h λ_t, with the rate λ_t that those by the velocity give them, …
+/// Angle h ω_t up to which a step is taken as it is. With ω_t, the highest frequency that the laws' tangents give the joints, the
+/// scheme's error is then a millionth over a period of that frequency; and h λ_t, with the rate λ_t that those by the velocity
+/// give them, …
 const ANGLE_AT_A_MILLIONTH: f64 = 0.13;
 /// … which is of fourth order.
 const MILLIONTH: f64 = 1e-6;
@@ -24,6 +28,10 @@ const MILLIONTH: f64 = 1e-6;
 /// of a force, which gives 3e-4. The rest is margin for what the stages leave beside it: with 1e-3 motions of cubic joints were
 /// up to forty tolerances from SciPy's, with this up to three.
 const OF_PARABOLA: f64 = 1.6e-2;
+/// Two steps of half the length have a fifteenth of the error by which they differ from the whole one: 2⁴ − 1.
+const BY_HALVES: f64 = 15.0;
+/// Angle from which on the two are not compared: they may both be wrong.
+const LARGEST_ANGLE: f64 = 1.0;
 /// (ωh)⁴ is this times the distance between the middle and the cubic through the ends with their slopes (Hermite).
 const HERMITE: f64 = 384.0;
 
@@ -57,6 +65,8 @@ pub struct AssemblySteps {
 #[derive(Clone, Debug)]
 struct Scratch {
     state: AssemblyState,
+    /// Where the first half of the step leads.
+    half: AssemblyState,
     /// Loads, and then the preloads, as powers of time.
     loads: [Vec<f64>; POWERS],
     /// The laws at the beginning, in the middle and at the end, where joints follow a preload; else nothing.
@@ -165,7 +175,25 @@ impl AssemblySteps {
         own.follow(&self.system);
         own.take(&self.system, rung, state);
         let is_finest = finer.is_empty();
-        let is_steep = own.is_steep(&self.system, rung, state, self.tolerance);
+        let angles = own.angles(&self.system, rung, state);
+        let is_far = own.is_preload_far(&self.system);
+        let mut is_steep = is_far || own.is_steep(angles, self.tolerance);
+        let mut parts = 1;
+        if let Some(next) = finer.first_mut().filter(|_| is_steep && !is_far)
+            && let Some(finer_rung) = self.ladder.rungs.get(level + 1)
+            && angles.largest() < LARGEST_ANGLE
+            && own.is_as_by_halves(
+                &self.system,
+                finer_rung,
+                next,
+                state,
+                angles,
+                self.tolerance,
+            )
+        {
+            is_steep = false;
+            parts = 2;
+        }
         self.is_too_long |= is_finest && is_steep && self.system.forces() > 0;
         let at_events = match is_finest {
             true => None,
@@ -175,7 +203,7 @@ impl AssemblySteps {
         };
         let Some(at_events) = at_events else {
             std::mem::swap(state, &mut own.state);
-            return 1;
+            return parts;
         };
         if let Some(next) = finer.first_mut() {
             halve(&own.loads, &mut next.loads);
@@ -230,6 +258,21 @@ fn go_on([constant, linear, quadratic, cubic]: &mut [Vec<f64>; POWERS]) {
     }
 }
 
+/// The step as an angle of what the joints' laws would oscillate or decay by.
+#[derive(Clone, Copy, Debug)]
+struct Angles {
+    /// h ω_t.
+    of_stiffness: f64,
+    /// h λ_t.
+    of_damping: f64,
+}
+
+impl Angles {
+    fn largest(self) -> f64 {
+        self.of_stiffness.max(self.of_damping)
+    }
+}
+
 impl AssemblyState {
     /// That of an assembly that has not moved yet.
     #[must_use]
@@ -274,6 +317,7 @@ impl Scratch {
         let following = system.following.len();
         Self {
             state: AssemblyState::of_size(system.size, d),
+            half: AssemblyState::of_size(system.size, d),
             loads: std::array::from_fn(|_| vec![0.0; m + following]),
             laws: vec![system.laws.clone(); if following > 0 { 3 } else { 0 }],
             relative: std::array::from_fn(|_| vec![0.0; 2 * d]),
@@ -441,36 +485,39 @@ impl Scratch {
         }
     }
 
-    /// Whether the step that was taken is too long for the stiffness of its joints.
-    fn is_steep(
-        &mut self,
-        system: &System,
-        rung: &Rung,
-        before: &AssemblyState,
-        tolerance: f64,
-    ) -> bool {
-        let [begin, hermite, middle, _, end] = &self.relative;
+    /// Whether a preload goes so far within the step that its joint is hardly the same one.
+    fn is_preload_far(&self, system: &System) -> bool {
         let [at_begin, at_middle, at_end] = three(system, &self.laws);
-        if at_begin.are_far_from(at_middle, system) || at_middle.are_far_from(at_end, system) {
-            return true;
-        }
-        let h = rung.length_s;
-        let largest = largest_angle(tolerance);
-        let tangents = &mut self.tangents;
-        // h ω_t and h λ_t
-        let mut angles = [0.0_f64; 2];
+        at_begin.are_far_from(at_middle, system) || at_middle.are_far_from(at_end, system)
+    }
+
+    /// h ω_t and h λ_t of the step that was taken, the larger ones of its ends.
+    fn angles(&mut self, system: &System, rung: &Rung, before: &AssemblyState) -> Angles {
+        let [begin, .., end] = &self.relative;
+        let [at_begin, _, at_end] = three(system, &self.laws);
+        let (h, tangents) = (rung.length_s, &mut self.tangents);
+        let mut angles = Angles {
+            of_stiffness: 0.0,
+            of_damping: 0.0,
+        };
         for (laws, at) in [(at_begin, begin), (at_end, end)] {
             let pace = laws.pace(system, &before.memory, at, tangents);
-            angles[0] = angles[0].max(h * pace.frequency_rad_per_s);
-            angles[1] = angles[1].max(h * pace.rate_per_s);
-            if angles[0] > largest || angles[1] > largest {
-                return true;
-            }
+            angles.of_stiffness = angles.of_stiffness.max(h * pace.frequency_rad_per_s);
+            angles.of_damping = angles.of_damping.max(h * pace.rate_per_s);
         }
-        if angles == [0.0; 2] {
+        angles
+    }
+
+    /// Whether the step that was taken may be too long for the stiffness of its joints.
+    fn is_steep(&self, angles: Angles, tolerance: f64) -> bool {
+        if angles.largest() > largest_angle(tolerance) {
+            return true;
+        }
+        if angles.largest() == 0.0 {
             return false;
         }
-        (0..system.forces()).any(|i| {
+        let [begin, hermite, middle, _, end] = &self.relative;
+        (0..begin.len() / 2).any(|i| {
             let size = [begin[i], middle[i], end[i]].map(f64::abs);
             let size = size[0].max(size[1]).max(size[2]);
             if size == 0.0 {
@@ -478,9 +525,47 @@ impl Scratch {
             }
             // (ωh)²
             let square = (HERMITE * (middle[i] - hermite[i]).abs() / size).sqrt();
-            let error = angles[0].powi(2) * square + angles[1] * square * square.sqrt();
+            let error =
+                angles.of_stiffness.powi(2) * square + angles.of_damping * square * square.sqrt();
             OF_PARABOLA * error > tolerance
         })
+    }
+
+    /// Whether two halves lead where the step that was taken leads. What they differ by is 15 times the error of the halves, since
+    /// that of a step is of fifth order; where it is small enough, this scratch's state becomes that of the halves.
+    fn is_as_by_halves(
+        &mut self,
+        system: &System,
+        rung: &Rung,
+        next: &mut Self,
+        before: &AssemblyState,
+        angles: Angles,
+        tolerance: f64,
+    ) -> bool {
+        halve(&self.loads, &mut next.loads);
+        next.follow(system);
+        next.take(system, rung, before);
+        std::mem::swap(&mut self.half, &mut next.state);
+        go_on(&mut next.loads);
+        next.follow(system);
+        next.take(system, rung, &self.half);
+        // a period of their own takes 2π such steps, or more
+        let share = tolerance / std::f64::consts::TAU;
+        let omega = angles.largest() / (2.0 * rung.length_s);
+        let d = system.forces();
+        let [begin, .., end] = &self.relative;
+        let [.., halves] = &next.relative;
+        let is_near = (0..d).all(|i| {
+            let [r, velocity] = [i, d + i].map(|i| begin[i].abs().max(end[i].abs()));
+            let off = |i: usize| (end[i] - halves[i]).abs() / BY_HALVES;
+            let amplitude = r + velocity / omega;
+            off(i) + off(d + i) / omega <= share * amplitude
+        });
+        if is_near {
+            std::mem::swap(&mut self.state, &mut next.state);
+            self.relative[4].copy_from_slice(halves);
+        }
+        is_near
     }
 
     /// Whether within the step that was taken a law that remembers turns or passes a corner of its load.

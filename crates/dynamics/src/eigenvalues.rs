@@ -1,6 +1,7 @@
 //! Eigenvalues of small real matrices: Hessenberg form, then the shifted QR iteration in complex arithmetic
 //! (Golub and Van Loan, *Matrix Computations*, chapter 7).
 
+use crate::complex::Complex;
 use crate::dof::SPACE_COUNT;
 use crate::elementary::hypotenuse;
 use crate::spectrum::Eigenvalue;
@@ -13,62 +14,6 @@ pub(crate) type Square = [[f64; MAX_ORDER]; MAX_ORDER];
 
 /// Iterations for one eigenvalue after which the matrix is given up; a handful is usual.
 const MAX_ITERATIONS: u32 = 120;
-
-#[derive(Clone, Copy)]
-struct Complex {
-    re: f64,
-    im: f64,
-}
-
-impl Complex {
-    const ZERO: Self = Self { re: 0.0, im: 0.0 };
-
-    fn plus(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
-    }
-
-    fn minus(self, other: Self) -> Self {
-        self.plus(other.scaled(-1.0))
-    }
-
-    fn times(self, other: Self) -> Self {
-        Self {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
-    }
-
-    fn scaled(self, factor: f64) -> Self {
-        Self {
-            re: self.re * factor,
-            im: self.im * factor,
-        }
-    }
-
-    fn conjugate(self) -> Self {
-        Self {
-            re: self.re,
-            im: -self.im,
-        }
-    }
-
-    fn modulus(self) -> f64 {
-        hypotenuse(self.re, self.im)
-    }
-
-    fn square_root(self) -> Self {
-        let modulus = self.modulus();
-        let re = (0.5 * (modulus + self.re)).max(0.0).sqrt();
-        let im = (0.5 * (modulus - self.re)).max(0.0).sqrt();
-        Self {
-            re,
-            im: im.copysign(self.im),
-        }
-    }
-}
 
 /// Eigenvalues of the leading `order`×`order` block; the rest of the result is zero.
 ///

@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod assembly;
+mod complex;
 mod condensation;
 mod counted;
 mod definiteness;

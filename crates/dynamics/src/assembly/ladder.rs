@@ -2,7 +2,8 @@
 
 use super::{
     matrix::Matrix,
-    propagator::{Blocks, POWERS, Propagator},
+    modes::Frame,
+    propagator::{Blocks, Going, POWERS, Propagator, scale},
     system::System,
 };
 
@@ -39,6 +40,18 @@ pub(super) struct Middle {
 #[derive(Clone, Debug)]
 pub(super) struct Ladder {
     pub(super) rungs: Vec<Rung>,
+    /// The coordinates in which all blocks are, if others than q and q̇.
+    pub(super) frame: Option<Frame>,
+    pub(super) sight: Sight,
+}
+
+/// What joints and loads see of the state, in the coordinates of the ladder.
+#[derive(Clone, Debug)]
+pub(super) struct Sight {
+    /// Relative displacements of the DOFs with laws, and then their rates: 2d × 2n.
+    pub(super) relative: Matrix,
+    /// Displacements at the loads and of these DOFs: (m + d) × 2n.
+    pub(super) places: Matrix,
 }
 
 impl Ladder {
@@ -50,7 +63,11 @@ impl Ladder {
                 whole: Propagator::new(system, length_s, 0)?.blocks(),
                 middle: None,
             };
-            return Some(Self { rungs: vec![rung] });
+            return Some(Self {
+                rungs: vec![rung],
+                frame: None,
+                sight: Sight::of(system),
+            });
         }
         let length = |level: usize| length_s * 0.5_f64.powi(level as i32);
         let mut rungs = Vec::with_capacity(HALVINGS + 1);
@@ -67,7 +84,68 @@ impl Ladder {
             half = whole;
         }
         rungs.reverse();
-        Some(Self { rungs })
+        let ladder = Self {
+            rungs,
+            frame: None,
+            sight: Sight::of(system),
+        };
+        let frame = Frame::of(system).filter(|frame| {
+            let longest = ladder.rungs.first();
+            longest.is_some_and(|rung| {
+                rung.whole
+                    .state
+                    .is_given_by(frame, length_s, &scale(system))
+            })
+        });
+        Some(match frame {
+            Some(frame) => ladder.within(frame),
+            None => ladder,
+        })
+    }
+
+    /// The same in the coordinates of a frame.
+    fn within(self, frame: Frame) -> Self {
+        let seen = |rows: &Matrix| rows.product(frame.from_modes());
+        let rungs = self.rungs.into_iter().map(|rung| Rung {
+            length_s: rung.length_s,
+            middle: rung.middle.map(|middle| Middle {
+                by_state: seen(&middle.by_state),
+                ..middle
+            }),
+            whole: Blocks {
+                state: Going::Turning(frame.turns(rung.length_s)),
+                by: rung.whole.by.map(|by| frame.to_modes().product(&by)),
+                moments: rung.whole.moments.each_ref().map(seen),
+                moments_by: rung.whole.moments_by,
+            },
+        });
+        Self {
+            rungs: rungs.collect(),
+            sight: Sight {
+                relative: seen(&self.sight.relative),
+                places: seen(&self.sight.places),
+            },
+            frame: Some(frame),
+        }
+    }
+}
+
+impl Sight {
+    fn of(system: &System) -> Self {
+        let (n, m) = (system.size, system.loads);
+        let mut places = Matrix::zeros(m + system.forces(), 2 * n);
+        places.set_block([0, 0], &system.load_rows);
+        places.set_block([m, 0], &system.rows);
+        Self {
+            relative: relative_rows(system),
+            places,
+        }
+    }
+
+    /// Relative displacements and their rates at a state.
+    pub(super) fn relative(&self, state: &[f64], relative: &mut [f64]) {
+        relative.fill(0.0);
+        self.relative.add_product_to(state, relative);
     }
 }
 
@@ -82,7 +160,7 @@ impl Middle {
         let [i1, i2] = [0, 1].map(|power| of_forces(half, power));
         let [j1, j2] = [0, 1].map(|power| of_forces(whole, power));
         Self {
-            by_state: rows.product(&half.state),
+            by_state: half.state.seen_by(&rows),
             by_loads: half.by.each_ref().map(of_loads),
             of_half: [i1.clone(), i1.plus(-2.0, &i2), i2.times(2.0)],
             of_whole: [j1.plus(-2.0, &j2), j2.times(2.0)],

@@ -197,6 +197,42 @@ impl Matrix {
         Some(right)
     }
 
+    /// L with L Lᵀ = A of a symmetric A that is nowhere negative; zeros where it is nothing. `None` where it is negative.
+    pub(super) fn cholesky(&self) -> Option<Self> {
+        let mut lower = Self::zeros(self.rows, self.rows);
+        for j in 0..self.rows {
+            let before = &lower.row(j)[..j];
+            let rest = self[(j, j)] - dot(before, before);
+            let rounding = 8.0 * f64::EPSILON * self[(j, j)].abs();
+            if rest < -rounding || !rest.is_finite() {
+                return None;
+            }
+            let pivot = if rest > rounding { rest.sqrt() } else { 0.0 };
+            lower[(j, j)] = pivot;
+            for i in j + 1..self.rows {
+                let rest = self[(i, j)] - dot(&lower.row(i)[..j], &lower.row(j)[..j]);
+                if pivot > 0.0 {
+                    lower[(i, j)] = rest / pivot;
+                } else if rest.abs() > rounding.max(8.0 * f64::EPSILON * self[(i, j)].abs()) {
+                    return None;
+                }
+            }
+        }
+        Some(lower)
+    }
+
+    /// Rows i and j (i before j) turned by an angle: cos aᵢ − sin aⱼ and sin aᵢ + cos aⱼ.
+    pub(super) fn rotate_rows(&mut self, [i, j]: [usize; 2], [cosine, sine]: [f64; 2]) {
+        let columns = self.columns;
+        let (first, second) = self.values.split_at_mut(j * columns);
+        let rows = first[i * columns..].iter_mut().zip(&mut second[..columns]);
+        for (own, other) in rows {
+            let [x, y] = [*own, *other];
+            *own = cosine * x - sine * y;
+            *other = sine * x + cosine * y;
+        }
+    }
+
     fn swap_rows(&mut self, i: usize, j: usize) {
         if i != j {
             let (low, high) = (i.min(j), i.max(j));

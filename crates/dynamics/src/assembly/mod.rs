@@ -7,6 +7,7 @@ mod equations;
 mod exponential;
 mod ladder;
 mod matrix;
+mod modes;
 mod preload;
 mod propagator;
 mod steps;

@@ -8,7 +8,12 @@
 //! All of them, and the integrals of the motion that the work of the forces takes, are blocks of one exponential, with no
 //! inverse, so that motions of free bodies need no care. That of twice the length is its square.
 
-use super::{exponential::Growth, matrix::Matrix, system::System};
+use super::{
+    exponential::Growth,
+    matrix::Matrix,
+    modes::{Frame, Turns},
+    system::System,
+};
 
 /// Powers of time that the loads and joint forces of a step have: constant to cubic.
 pub(super) const POWERS: usize = 4;
@@ -19,13 +24,52 @@ pub(super) const MOMENTS: usize = POWERS - 1;
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     /// E, 2n × 2n.
-    pub(super) state: Matrix,
+    pub(super) state: Going,
     /// hφ₁X to hφ₄X, 2n × (m + d).
     pub(super) by: [Matrix; POWERS],
     /// What ∫ Rq dθ, with R = (Bᵀ; S), and the integrals over it take of y: (m + d) × 2n.
     pub(super) moments: [Matrix; MOMENTS],
     /// What they take of w₀ to w₃.
     pub(super) moments_by: [[Matrix; POWERS]; MOMENTS],
+}
+
+/// E as it is, or mode by mode.
+#[derive(Clone, Debug)]
+pub(super) enum Going {
+    Whole(Matrix),
+    Turning(Turns),
+}
+
+impl Going {
+    /// Where a state goes: E y.
+    pub(super) fn go_on(&self, from: &[f64], to: &mut [f64]) {
+        match self {
+            Self::Whole(matrix) => {
+                to.fill(0.0);
+                matrix.add_product_to(from, to);
+            }
+            Self::Turning(turns) => {
+                to.copy_from_slice(from);
+                turns.turn(to);
+            }
+        }
+    }
+
+    /// R E of some rows; nothing mode by mode, where E is no matrix.
+    pub(super) fn seen_by(&self, rows: &Matrix) -> Matrix {
+        match self {
+            Self::Whole(matrix) => rows.product(matrix),
+            Self::Turning(_) => Matrix::zeros(rows.rows(), rows.columns()),
+        }
+    }
+
+    /// Whether modes give this E of a time (s).
+    pub(super) fn is_given_by(&self, frame: &Frame, length_s: f64, scale: &[f64]) -> bool {
+        match self {
+            Self::Whole(matrix) => frame.gives(matrix, length_s, scale),
+            Self::Turning(_) => true,
+        }
+    }
 }
 
 /// The exponential itself, in (D q, q̇) and in parts θ of the longest length.
@@ -108,7 +152,7 @@ impl<'s> Propagator<'s> {
         };
         let (y, forces) = (rows.y(), rows.forces);
         Blocks {
-            state: part([y, y], 2 * n, 2 * n, &|i, j| unit(j) / unit(i)),
+            state: Going::Whole(part([y, y], 2 * n, 2 * n, &|i, j| unit(j) / unit(i))),
             by: std::array::from_fn(|power| {
                 let own = powers(0, power);
                 part([y, rows.w(power)], 2 * n, forces, &|i, _| own / unit(i))
@@ -171,7 +215,7 @@ fn force_row(system: &System, force: usize, coordinate: usize) -> f64 {
 }
 
 /// D: the frequency of each coordinate, but at least the lowest that there is, rad/s.
-fn scale(system: &System) -> Vec<f64> {
+pub(super) fn scale(system: &System) -> Vec<f64> {
     let own = |i: usize| system.stiffness[(i, i)].max(0.0).sqrt();
     let positive = (0..system.size).map(own).filter(|&own| own > 0.0);
     let least = positive.fold(f64::INFINITY, f64::min);

@@ -8,7 +8,7 @@
 //! they know: where they say no, two halves are compared with the whole.
 
 use super::{
-    ladder::{HALVINGS_AT_EVENTS, Ladder, Rung},
+    ladder::{HALVINGS_AT_EVENTS, Ladder, Rung, Sight},
     matrix::{Matrix, dot},
     preload::LawsAt,
     propagator::{Blocks, MOMENTS, POWERS},
@@ -58,7 +58,17 @@ pub struct AssemblySteps {
     ladder: Ladder,
     tolerance: f64,
     scratch: Vec<Scratch>,
+    /// Room for a motion in other coordinates.
+    room: Vec<f64>,
     is_too_long: bool,
+}
+
+/// What a part of a step is taken with.
+#[derive(Clone, Copy)]
+struct Means<'a> {
+    system: &'a System,
+    sight: &'a Sight,
+    rung: &'a Rung,
 }
 
 /// Room for what a step computes, one for each halving.
@@ -95,6 +105,7 @@ impl AssemblySteps {
         let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
         Some(Self {
             tolerance,
+            room: vec![0.0; 2 * system.size],
             system,
             ladder,
             scratch,
@@ -152,7 +163,17 @@ impl AssemblySteps {
             scratch.let_go(&self.system, state);
         }
         self.is_too_long = false;
-        self.part(state, 0, HALVINGS_AT_EVENTS)
+        let stored = self.system.linear_energy(&state.motion);
+        if let Some(frame) = &self.ladder.frame {
+            replace(frame.to_modes(), &mut state.motion, &mut self.room);
+        }
+        let parts = self.part(state, 0, HALVINGS_AT_EVENTS);
+        if let Some(frame) = &self.ladder.frame {
+            replace(frame.from_modes(), &mut state.motion, &mut self.room);
+        }
+        // what of the work is neither stored nor given to the laws is heat of the linear dampers
+        state.dissipated_j -= self.system.linear_energy(&state.motion) - stored;
+        parts
     }
 
     /// Whether in the latest step some of its shortest parts were still too long for the stiffness of the joints, so that the
@@ -172,24 +193,23 @@ impl AssemblySteps {
         ) else {
             return 0;
         };
+        let with = |rung| Means {
+            system: &self.system,
+            sight: &self.ladder.sight,
+            rung,
+        };
+        let means = with(rung);
         own.follow(&self.system);
-        own.take(&self.system, rung, state);
+        own.take(means, state);
         let is_finest = finer.is_empty();
-        let angles = own.angles(&self.system, rung, state);
+        let angles = own.angles(means, state);
         let is_far = own.is_preload_far(&self.system);
         let mut is_steep = is_far || own.is_steep(angles, self.tolerance);
         let mut parts = 1;
         if let Some(next) = finer.first_mut().filter(|_| is_steep && !is_far)
             && let Some(finer_rung) = self.ladder.rungs.get(level + 1)
             && angles.largest() < LARGEST_ANGLE
-            && own.is_as_by_halves(
-                &self.system,
-                finer_rung,
-                next,
-                state,
-                angles,
-                self.tolerance,
-            )
+            && own.is_as_by_halves(with(finer_rung), next, state, angles, self.tolerance)
         {
             is_steep = false;
             parts = 2;
@@ -198,7 +218,7 @@ impl AssemblySteps {
         let at_events = match is_finest {
             true => None,
             false if is_steep => Some(at_events),
-            false if own.has_event(&self.system, rung, state) => at_events.checked_sub(1),
+            false if own.has_event(means, state) => at_events.checked_sub(1),
             false => None,
         };
         let Some(at_events) = at_events else {
@@ -220,6 +240,13 @@ impl AssemblySteps {
     pub fn stored_energy_j(&self, state: &AssemblyState) -> f64 {
         self.system.stored_energy(state)
     }
+}
+
+/// x ← A x
+fn replace(matrix: &Matrix, x: &mut Vec<f64>, room: &mut Vec<f64>) {
+    room.fill(0.0);
+    matrix.add_product_to(x, room);
+    std::mem::swap(x, room);
 }
 
 /// Adds A x to `sum`, unless x is zero: loads are held as a rule, and no force is cubic.
@@ -360,7 +387,12 @@ impl Scratch {
     }
 
     /// The step from `before` to this scratch's state.
-    fn take(&mut self, system: &System, rung: &Rung, before: &AssemblyState) {
+    fn take(&mut self, means: Means<'_>, before: &AssemblyState) {
+        let Means {
+            system,
+            sight,
+            rung,
+        } = means;
         let (m, d) = (system.loads, system.forces());
         let whole = &rung.whole;
         for (power, loads) in self.powers.iter_mut().zip(&self.loads) {
@@ -369,8 +401,7 @@ impl Scratch {
         }
         // y¹ = E y + loads
         let end = &mut self.state.motion;
-        end.fill(0.0);
-        whole.state.add_product_to(&before.motion, end);
+        whole.state.go_on(&before.motion, end);
         for (block, power) in whole.by.iter().zip(&self.powers) {
             add_product(block, power, end);
         }
@@ -378,7 +409,7 @@ impl Scratch {
             let [r0, r2, r3, r4, _] = &mut self.relative;
             let [f1, f2, f3, f4] = &mut self.forces;
             let [at_begin, at_middle, at_end] = three(system, &self.laws);
-            system.relative(&before.motion, r0);
+            sight.relative(&before.motion, r0);
             at_begin.forces(system, &before.memory, r0, f1);
             // y^½ = E_½ y + loads
             r2.fill(0.0);
@@ -392,7 +423,7 @@ impl Scratch {
                 share *= 0.5;
             }
             r3.copy_from_slice(r2);
-            system.relative(end, r4);
+            sight.relative(end, r4);
             // f₂ = f(y^½ + i₁ f₁)
             middle.of_half[0].add_product_to(f1, r2);
             at_middle.forces(system, &before.memory, r2, f2);
@@ -416,21 +447,23 @@ impl Scratch {
                     block.add_product_of_tail_to(&power[m..], end);
                 }
             }
-            system.relative(end, &mut self.relative[4]);
+            sight.relative(end, &mut self.relative[4]);
         }
-        self.count(system, rung, before);
+        self.count(means, before);
     }
 
-    /// What the step supplies and turns into heat, and what the joints remember after it.
-    fn count(&mut self, system: &System, rung: &Rung, before: &AssemblyState) {
+    /// What the step supplies and turns into heat, but for what the linear part stores, and what the joints remember after it.
+    fn count(&mut self, means: Means<'_>, before: &AssemblyState) {
+        let Means {
+            system,
+            sight,
+            rung,
+        } = means;
         let h = rung.length_s;
         let (m, d) = (system.loads, system.forces());
         self.moments_over(&rung.whole, &before.motion);
         let [first, second, third] = &self.moments;
-        let place = |state: &[f64], p: usize| match p.checked_sub(m) {
-            None => dot(system.load_rows.row(p), &state[..system.size]),
-            Some(law) => dot(system.rows.row(law), &state[..system.size]),
-        };
+        let place = |state: &[f64], p: usize| dot(sight.places.row(p), state);
         // ∫ wᵀ dx = [wᵀ x] − ∫ (dw/dθ)ᵀ x dθ, with ∫ θ x dθ = z₁ − z₂ and ∫ θ² x dθ = z₁ − 2z₂ + 2z₃
         let work = |p: usize| {
             let [w0, w1, w2, w3] = self.powers.each_ref().map(|power| power[p]);
@@ -444,10 +477,8 @@ impl Scratch {
         };
         let supplied: f64 = (0..m).map(work).sum();
         let into_laws: f64 = (m..m + d).map(work).sum();
-        let stored =
-            system.linear_energy(&self.state.motion) - system.linear_energy(&before.motion);
-        // what of the work is neither stored nor given to the laws is heat of the linear dampers
-        let mut heat = supplied - into_laws - stored;
+        // the linear part's share is that of the whole step
+        let mut heat = supplied - into_laws;
         let laws = three(system, &self.laws);
         // the stages' own middle is no longer needed
         let [begin, middle, _, _, end] = &mut self.relative;
@@ -492,7 +523,8 @@ impl Scratch {
     }
 
     /// h ω_t and h λ_t of the step that was taken, the larger ones of its ends.
-    fn angles(&mut self, system: &System, rung: &Rung, before: &AssemblyState) -> Angles {
+    fn angles(&mut self, means: Means<'_>, before: &AssemblyState) -> Angles {
+        let Means { system, rung, .. } = means;
         let [begin, .., end] = &self.relative;
         let [at_begin, _, at_end] = three(system, &self.laws);
         let (h, tangents) = (rung.length_s, &mut self.tangents);
@@ -535,20 +567,20 @@ impl Scratch {
     /// that of a step is of fifth order; where it is small enough, this scratch's state becomes that of the halves.
     fn is_as_by_halves(
         &mut self,
-        system: &System,
-        rung: &Rung,
+        means: Means<'_>,
         next: &mut Self,
         before: &AssemblyState,
         angles: Angles,
         tolerance: f64,
     ) -> bool {
+        let Means { system, rung, .. } = means;
         halve(&self.loads, &mut next.loads);
         next.follow(system);
-        next.take(system, rung, before);
+        next.take(means, before);
         std::mem::swap(&mut self.half, &mut next.state);
         go_on(&mut next.loads);
         next.follow(system);
-        next.take(system, rung, &self.half);
+        next.take(means, &self.half);
         // a period of their own takes 2π such steps, or more
         let share = tolerance / std::f64::consts::TAU;
         let omega = angles.largest() / (2.0 * rung.length_s);
@@ -569,7 +601,8 @@ impl Scratch {
     }
 
     /// Whether within the step that was taken a law that remembers turns or passes a corner of its load.
-    fn has_event(&mut self, system: &System, rung: &Rung, before: &AssemblyState) -> bool {
+    fn has_event(&mut self, means: Means<'_>, before: &AssemblyState) -> bool {
+        let Means { system, rung, .. } = means;
         (0..system.forces()).any(|i| self.has_event_on(system, rung.length_s, before, i))
     }
 

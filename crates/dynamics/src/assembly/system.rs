@@ -177,6 +177,22 @@ impl System {
         }
     }
 
+    /// G with Gᵀ G = K_q: Ω, and under it Lᵀ S of each joint with K_j = L Lᵀ. `None` where a joint's stiffness is not positive.
+    pub(super) fn stiffness_factor(&self) -> Option<Matrix> {
+        let count: usize = self.springs.iter().map(|[rows, _]| rows.rows()).sum();
+        let mut factor = Matrix::zeros(self.size + count, self.size);
+        for (i, square) in self.squares.iter().enumerate() {
+            factor[(i, i)] = square.sqrt();
+        }
+        let mut top = self.size;
+        for [rows, stiffness] in &self.springs {
+            let lower = stiffness.cholesky()?;
+            factor.set_block([top, 0], &lower.transposed().product(rows));
+            top += rows.rows();
+        }
+        Some(factor)
+    }
+
     /// Number of DOFs that have forces of laws, d.
     pub(super) fn forces(&self) -> usize {
         self.laws.on.len()

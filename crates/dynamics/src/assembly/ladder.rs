@@ -105,7 +105,9 @@ impl Ladder {
 
     /// The same in the coordinates of a frame.
     fn within(self, frame: Frame) -> Self {
-        let seen = |rows: &Matrix| rows.product(frame.from_modes());
+        let seen = |rows: &Matrix| rows.product(frame.out_of_modes());
+        let transposed = frame.to_modes().transposed();
+        let of_modes = |by: &Matrix| by.product(&transposed);
         let rungs = self.rungs.into_iter().map(|rung| Rung {
             length_s: rung.length_s,
             middle: rung.middle.map(|middle| Middle {
@@ -114,7 +116,7 @@ impl Ladder {
             }),
             whole: Blocks {
                 state: Going::Turning(frame.turns(rung.length_s)),
-                by: rung.whole.by.map(|by| frame.to_modes().product(&by)),
+                by: rung.whole.by.each_ref().map(of_modes),
                 moments: rung.whole.moments.each_ref().map(seen),
                 moments_by: rung.whole.moments_by,
             },
@@ -154,9 +156,10 @@ impl Middle {
         let (m, d) = (system.loads, system.forces());
         let rows = relative_rows(system);
         let size = 2 * system.size;
-        let of_loads = |block: &Matrix| rows.product(&block.block([0, 0], size, m));
-        let of_forces =
-            |blocks: &Blocks, power: usize| rows.product(&blocks.by[power].block([0, m], size, d));
+        let of_loads = |block: &Matrix| rows.product(&block.block([0, 0], m, size).transposed());
+        let of_forces = |blocks: &Blocks, power: usize| {
+            rows.product(&blocks.by[power].block([m, 0], d, size).transposed())
+        };
         let [i1, i2] = [0, 1].map(|power| of_forces(half, power));
         let [j1, j2] = [0, 1].map(|power| of_forces(whole, power));
         Self {

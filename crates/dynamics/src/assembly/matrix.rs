@@ -146,11 +146,15 @@ impl Matrix {
         }
     }
 
-    /// Adds the product of the last columns with as many numbers to `sum`.
+    /// Adds Σ xᵢ aᵢ to `sum`, with the rows aᵢ from row `first` on; what is zero costs nothing.
     #[inline]
-    pub(super) fn add_product_of_tail_to(&self, x: &[f64], sum: &mut [f64]) {
-        for (i, sum) in sum.iter_mut().enumerate() {
-            *sum += dot(&self.row(i)[self.columns - x.len()..], x);
+    pub(super) fn add_rows_to(&self, first: usize, x: &[f64], sum: &mut [f64]) {
+        for (i, &factor) in x.iter().enumerate() {
+            if factor != 0.0 {
+                for (sum, own) in sum.iter_mut().zip(self.row(first + i)) {
+                    *sum += factor * own;
+                }
+            }
         }
     }
 

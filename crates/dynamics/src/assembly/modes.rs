@@ -38,7 +38,7 @@ enum Pair {
 pub(super) struct Frame {
     pairs: Vec<Pair>,
     /// V, 2n × 2n.
-    from_modes: Matrix,
+    out_of_modes: Matrix,
     /// V⁻¹
     to_modes: Matrix,
 }
@@ -59,7 +59,7 @@ impl Frame {
             .fold(0.0_f64, |largest, own| largest.max(*own));
         let mut frame = Self {
             pairs: Vec::with_capacity(n),
-            from_modes: Matrix::zeros(2 * n, 2 * n),
+            out_of_modes: Matrix::zeros(2 * n, 2 * n),
             to_modes: Matrix::zeros(2 * n, 2 * n),
         };
         for k in 0..n {
@@ -99,8 +99,8 @@ impl Frame {
             let of = |part: &[Complex]| along(shapes.row(i), part);
             let phi = of(shape);
             for (row, own) in [(i, phi), (n + i, phi.times(*lambda))] {
-                self.from_modes[(row, 2 * k)] = own.re;
-                self.from_modes[(row, 2 * k + 1)] = own.im;
+                self.out_of_modes[(row, 2 * k)] = own.re;
+                self.out_of_modes[(row, 2 * k + 1)] = own.im;
             }
             // ζ = φᵀ (q̇ + (C + λ) q)/θ, z = (2 Re ζ, −2 Im ζ)
             for (column, own) in [(i, of(&left)), (n + i, phi.times(weight))] {
@@ -115,7 +115,7 @@ impl Frame {
         let n = shapes.rows();
         for i in 0..n {
             for part in 0..2 {
-                self.from_modes[(part * n + i, 2 * k + part)] = shapes[(i, k)];
+                self.out_of_modes[(part * n + i, 2 * k + part)] = shapes[(i, k)];
                 self.to_modes[(2 * k + part, part * n + i)] = shapes[(i, k)];
             }
         }
@@ -146,15 +146,15 @@ impl Frame {
             }
             turns.turn(&mut column);
             (0..2 * n).all(|i| {
-                let found = dot(self.from_modes.row(i), &column);
+                let found = dot(self.out_of_modes.row(i), &column);
                 (found - exponential[(i, j)]).abs() * unit(i) / unit(j) < LARGEST_ERROR
             })
         })
     }
 
     /// V
-    pub(super) fn from_modes(&self) -> &Matrix {
-        &self.from_modes
+    pub(super) fn out_of_modes(&self) -> &Matrix {
+        &self.out_of_modes
     }
 
     /// V⁻¹

@@ -25,7 +25,7 @@ pub(super) const MOMENTS: usize = POWERS - 1;
 pub(super) struct Blocks {
     /// E, 2n × 2n.
     pub(super) state: Going,
-    /// hφ₁X to hφ₄X, 2n × (m + d).
+    /// (hφ₁X)ᵀ to (hφ₄X)ᵀ, (m + d) × 2n: what each load and force adds stands side by side.
     pub(super) by: [Matrix; POWERS],
     /// What ∫ Rq dθ, with R = (Bᵀ; S), and the integrals over it take of y: (m + d) × 2n.
     pub(super) moments: [Matrix; MOMENTS],
@@ -155,7 +155,7 @@ impl<'s> Propagator<'s> {
             state: Going::Whole(part([y, y], 2 * n, 2 * n, &|i, j| unit(j) / unit(i))),
             by: std::array::from_fn(|power| {
                 let own = powers(0, power);
-                part([y, rows.w(power)], 2 * n, forces, &|i, _| own / unit(i))
+                part([y, rows.w(power)], 2 * n, forces, &|i, _| own / unit(i)).transposed()
             }),
             moments: std::array::from_fn(|moment| {
                 let own = powers(moment + 1, 0);

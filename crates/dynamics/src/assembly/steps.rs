@@ -169,7 +169,7 @@ impl AssemblySteps {
         }
         let parts = self.part(state, 0, HALVINGS_AT_EVENTS);
         if let Some(frame) = &self.ladder.frame {
-            replace(frame.from_modes(), &mut state.motion, &mut self.room);
+            replace(frame.out_of_modes(), &mut state.motion, &mut self.room);
         }
         // what of the work is neither stored nor given to the laws is heat of the linear dampers
         state.dissipated_j -= self.system.linear_energy(&state.motion) - stored;
@@ -222,6 +222,9 @@ impl AssemblySteps {
             false => None,
         };
         let Some(at_events) = at_events else {
+            if parts == 1 {
+                own.count(means, state);
+            }
             std::mem::swap(state, &mut own.state);
             return parts;
         };
@@ -386,7 +389,7 @@ impl Scratch {
         }
     }
 
-    /// The step from `before` to this scratch's state.
+    /// The motion of the step from `before` to this scratch's state.
     fn take(&mut self, means: Means<'_>, before: &AssemblyState) {
         let Means {
             system,
@@ -403,7 +406,7 @@ impl Scratch {
         let end = &mut self.state.motion;
         whole.state.go_on(&before.motion, end);
         for (block, power) in whole.by.iter().zip(&self.powers) {
-            add_product(block, power, end);
+            block.add_rows_to(0, &power[..m], end);
         }
         if let Some(middle) = &rung.middle {
             let [r0, r2, r3, r4, _] = &mut self.relative;
@@ -443,13 +446,17 @@ impl Scratch {
                 self.powers[2][m + i] = 2.0 * (2.0 * f1[i] - 4.0 * middle + 2.0 * f4[i]);
             }
             for (block, power) in whole.by.iter().zip(&self.powers) {
-                if is_there(&power[m..]) {
-                    block.add_product_of_tail_to(&power[m..], end);
-                }
+                block.add_rows_to(m, &power[m..], end);
             }
             sight.relative(end, &mut self.relative[4]);
         }
-        self.count(means, before);
+        let (h, [begin, middle, _, _, end]) = (rung.length_s, &mut self.relative);
+        // the stages' own middle is no longer needed: between the ends it is that of the cubic with their slopes
+        for i in 0..d {
+            let [r, velocity] = [[begin[i], end[i]], [begin[d + i], end[d + i]]];
+            middle[i] = 0.5 * (r[0] + r[1]) + 0.125 * h * (velocity[0] - velocity[1]);
+            middle[d + i] = 1.5 * (r[1] - r[0]) / h - 0.25 * (velocity[0] + velocity[1]);
+        }
     }
 
     /// What the step supplies and turns into heat, but for what the linear part stores, and what the joints remember after it.
@@ -480,15 +487,9 @@ impl Scratch {
         // the linear part's share is that of the whole step
         let mut heat = supplied - into_laws;
         let laws = three(system, &self.laws);
-        // the stages' own middle is no longer needed
-        let [begin, middle, _, _, end] = &mut self.relative;
-        for i in 0..d {
-            let [r, velocity] = [[begin[i], end[i]], [begin[d + i], end[d + i]]];
-            middle[i] = 0.5 * (r[0] + r[1]) + 0.125 * h * (velocity[0] - velocity[1]);
-            middle[d + i] = 1.5 * (r[1] - r[0]) / h - 0.25 * (velocity[0] + velocity[1]);
-        }
+        let [begin, middle, _, _, end] = &self.relative;
         // Simpson's rule
-        let motions = [&*begin, middle, end];
+        let motions = [begin, middle, end];
         for ((laws, motion), weight) in laws.into_iter().zip(motions).zip([1.0, 4.0, 1.0]) {
             let (r, velocity) = motion.split_at(d);
             heat += weight * h / 6.0 * laws.viscous_power(system, r, velocity);
@@ -577,6 +578,7 @@ impl Scratch {
         halve(&self.loads, &mut next.loads);
         next.follow(system);
         next.take(means, before);
+        next.count(means, before);
         std::mem::swap(&mut self.half, &mut next.state);
         go_on(&mut next.loads);
         next.follow(system);
@@ -594,8 +596,9 @@ impl Scratch {
             off(i) + off(d + i) / omega <= share * amplitude
         });
         if is_near {
-            std::mem::swap(&mut self.state, &mut next.state);
             self.relative[4].copy_from_slice(halves);
+            next.count(means, &self.half);
+            std::mem::swap(&mut self.state, &mut next.state);
         }
         is_near
     }

@@ -1,9 +1,11 @@
 //! Everything that steps of one length need, and of its halves: prepared once, so that a step allocates nothing.
 
 use super::{
+    lobatto::THETA,
     matrix::Matrix,
     modes::Frame,
-    propagator::{Blocks, Going, POWERS, Propagator, scale},
+    propagator::{Blocks, Going, Propagator, scale},
+    stages::{Stages, relative_rows},
     system::System,
 };
 
@@ -18,22 +20,8 @@ pub(super) struct Rung {
     pub(super) length_s: f64,
     /// Over the whole step.
     pub(super) whole: Blocks,
-    /// What Krogstad's scheme has in its middle; nothing where no joint has a law beside the linear one.
-    pub(super) middle: Option<Middle>,
-}
-
-/// The condensed scheme: its stages need relative motions alone. With j_k = hφ_kJ at the end and i_k the same at half the length:
-/// r at half the step, and how the forces of the stages before act on the relative motion of each stage.
-#[derive(Clone, Debug)]
-pub(super) struct Middle {
-    /// Relative motion at half the step by the state at its beginning, 2d × 2n.
-    pub(super) by_state: Matrix,
-    /// … by the loads' powers of time over that half, 2d × m.
-    pub(super) by_loads: [Matrix; POWERS],
-    /// i₁, i₁ − 2 i₂ and 2 i₂ as relative motions, 2d × d.
-    pub(super) of_half: [Matrix; 3],
-    /// j₁ − 2 j₂ and 2 j₂ as relative motions, 2d × d.
-    pub(super) of_whole: [Matrix; 2],
+    /// What the joints' forces are found by; nothing where no joint has a law beside the linear one.
+    pub(super) stages: Option<Stages>,
 }
 
 /// The lengths h, h/2, h/4 …
@@ -61,7 +49,7 @@ impl Ladder {
             let rung = Rung {
                 length_s,
                 whole: Propagator::new(system, length_s, 0)?.blocks(),
-                middle: None,
+                stages: None,
             };
             return Some(Self {
                 rungs: vec![rung],
@@ -71,14 +59,16 @@ impl Ladder {
         }
         let length = |level: usize| length_s * 0.5_f64.powi(level as i32);
         let mut rungs = Vec::with_capacity(HALVINGS + 1);
-        let mut propagator = Propagator::new(system, length_s, HALVINGS + 1)?;
-        let mut half = propagator.blocks();
+        let start = |share: f64| Propagator::new(system, share * length_s, HALVINGS + 1);
+        let mut propagators = [start(THETA[1])?, start(1.0)?, start(THETA[3])?];
+        let [.., mut half, _] = propagators.each_ref().map(Propagator::blocks);
         for level in (0..=HALVINGS).rev() {
-            propagator = propagator.doubled()?;
-            let whole = propagator.blocks();
+            propagators = doubled(&propagators)?;
+            let [second, whole, fourth] = propagators.each_ref().map(Propagator::blocks);
+            let to_nodes = [&second, &half, &fourth, &whole];
             rungs.push(Rung {
                 length_s: length(level),
-                middle: Some(Middle::of(system, &whole, &half)),
+                stages: Some(Stages::of(system, to_nodes)),
                 whole: whole.clone(),
             });
             half = whole;
@@ -110,9 +100,9 @@ impl Ladder {
         let of_modes = |by: &Matrix| by.product(&transposed);
         let rungs = self.rungs.into_iter().map(|rung| Rung {
             length_s: rung.length_s,
-            middle: rung.middle.map(|middle| Middle {
-                by_state: seen(&middle.by_state),
-                ..middle
+            stages: rung.stages.map(|stages| Stages {
+                by_state: seen(&stages.by_state),
+                ..stages
             }),
             whole: Blocks {
                 state: Going::Turning(frame.turns(rung.length_s)),
@@ -151,31 +141,6 @@ impl Sight {
     }
 }
 
-impl Middle {
-    fn of(system: &System, whole: &Blocks, half: &Blocks) -> Self {
-        let (m, d) = (system.loads, system.forces());
-        let rows = relative_rows(system);
-        let size = 2 * system.size;
-        let of_loads = |block: &Matrix| rows.product(&block.block([0, 0], m, size).transposed());
-        let of_forces = |blocks: &Blocks, power: usize| {
-            rows.product(&blocks.by[power].block([m, 0], d, size).transposed())
-        };
-        let [i1, i2] = [0, 1].map(|power| of_forces(half, power));
-        let [j1, j2] = [0, 1].map(|power| of_forces(whole, power));
-        Self {
-            by_state: half.state.seen_by(&rows),
-            by_loads: half.by.each_ref().map(of_loads),
-            of_half: [i1.clone(), i1.plus(-2.0, &i2), i2.times(2.0)],
-            of_whole: [j1.plus(-2.0, &j2), j2.times(2.0)],
-        }
-    }
-}
-
-/// (S, 0; 0, S): relative displacements and their rates by q and q̇.
-fn relative_rows(system: &System) -> Matrix {
-    let (n, d) = (system.size, system.forces());
-    let mut rows = Matrix::zeros(2 * d, 2 * n);
-    rows.set_block([0, 0], &system.rows);
-    rows.set_block([d, n], &system.rows);
-    rows
+fn doubled<'s>([first, second, third]: &[Propagator<'s>; 3]) -> Option<[Propagator<'s>; 3]> {
+    Some([first.doubled()?, second.doubled()?, third.doubled()?])
 }

@@ -124,6 +124,23 @@ impl Matrix {
         product
     }
 
+    /// Matrices of one number of columns, one under the other.
+    pub(super) fn stacked(parts: impl Iterator<Item = Self>) -> Self {
+        parts
+            .reduce(|mut above, below| {
+                above.values.extend(below.values);
+                above.rows += below.rows;
+                above
+            })
+            .unwrap_or_else(|| Self::zeros(0, 0))
+    }
+
+    /// The modulus of each entry.
+    pub(super) fn moduli(&self) -> Self {
+        let values = self.values.iter().map(|value| value.abs()).collect();
+        Self { values, ..*self }
+    }
+
     /// Part of the matrix: `rows` by `columns` entries from row `top` and column `left` on.
     #[must_use]
     pub fn block(&self, [top, left]: [usize; 2], rows: usize, columns: usize) -> Self {
@@ -146,12 +163,12 @@ impl Matrix {
         }
     }
 
-    /// Adds Σ xᵢ aᵢ to `sum`, with the rows aᵢ from row `first` on; what is zero costs nothing.
+    /// Adds Aᵀ x to `sum`, row by row; what is zero costs nothing.
     #[inline]
-    pub(super) fn add_rows_to(&self, first: usize, x: &[f64], sum: &mut [f64]) {
+    pub(super) fn add_rows_to(&self, x: &[f64], sum: &mut [f64]) {
         for (i, &factor) in x.iter().enumerate() {
             if factor != 0.0 {
-                for (sum, own) in sum.iter_mut().zip(self.row(first + i)) {
+                for (sum, own) in sum.iter_mut().zip(self.row(i)) {
                     *sum += factor * own;
                 }
             }

@@ -6,10 +6,14 @@
 mod equations;
 mod exponential;
 mod ladder;
+mod lobatto;
 mod matrix;
 mod modes;
 mod preload;
 mod propagator;
+mod scratch;
+mod stages;
+mod state;
 mod steps;
 mod system;
 #[cfg(test)]
@@ -18,5 +22,6 @@ mod tests;
 pub use equations::AssemblyMotion;
 pub use matrix::Matrix;
 pub use preload::LawOverPreload;
-pub use steps::{AssemblyState, AssemblySteps, TOLERANCE};
+pub use state::AssemblyState;
+pub use steps::{AssemblySteps, TOLERANCE};
 pub use system::{Assembly, AssemblyJoint};

@@ -1,9 +1,9 @@
 //! What an assembly's state becomes over a step of a given length: exactly, for loads and joint forces that are polynomials of
 //! time.
 //!
-//! With y = (q, q̇), ẏ = A y + X w, w = (u, f), X = (0; B, −Sᵀ), and w(t) = w₀ + w₁ θ + w₂ θ²/2 + w₃ θ³/6 with θ = t/h:
+//! With y = (q, q̇), ẏ = A y + X w, w = (u, f), X = (0; B, −Sᵀ), and w(t) = w₀ + w₁ θ + w₂ θ²/2 + w₃ θ³/6 + w₄ θ⁴/24 with θ = t/h:
 //!
-//! y(h) = E y + hφ₁X w₀ + hφ₂X w₁ + hφ₃X w₂ + hφ₄X w₃,  E = φ₀ = e^{hA},  φ_{k+1} = (φ_k − 1/k!)/(hA)
+//! y(h) = E y + hφ₁X w₀ + hφ₂X w₁ + … + hφ₅X w₄,  E = φ₀ = e^{hA},  φ_{k+1} = (φ_k − 1/k!)/(hA)
 //!
 //! All of them, and the integrals of the motion that the work of the forces takes, are blocks of one exponential, with no
 //! inverse, so that motions of free bodies need no care. That of twice the length is its square.
@@ -15,8 +15,8 @@ use super::{
     system::System,
 };
 
-/// Powers of time that the loads and joint forces of a step have: constant to cubic.
-pub(super) const POWERS: usize = 4;
+/// Powers of time that the joints' forces of a step have: constant to quartic. Loads go up to the cube.
+pub(super) const POWERS: usize = 5;
 /// Integrals of the motion over the step that the work of the forces takes: as often integrated.
 pub(super) const MOMENTS: usize = POWERS - 1;
 
@@ -25,11 +25,11 @@ pub(super) const MOMENTS: usize = POWERS - 1;
 pub(super) struct Blocks {
     /// E, 2n × 2n.
     pub(super) state: Going,
-    /// (hφ₁X)ᵀ to (hφ₄X)ᵀ, (m + d) × 2n: what each load and force adds stands side by side.
+    /// (hφ₁X)ᵀ to (hφ₅X)ᵀ, (m + d) × 2n: what each load and force adds stands side by side.
     pub(super) by: [Matrix; POWERS],
     /// What ∫ Rq dθ, with R = (Bᵀ; S), and the integrals over it take of y: (m + d) × 2n.
     pub(super) moments: [Matrix; MOMENTS],
-    /// What they take of w₀ to w₃.
+    /// What they take of w₀ to w₄.
     pub(super) moments_by: [[Matrix; POWERS]; MOMENTS],
 }
 

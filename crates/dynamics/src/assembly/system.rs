@@ -7,6 +7,7 @@
 use super::{
     matrix::{Matrix, dot},
     preload::{Following, LawOverPreload, LawsAt},
+    state::AssemblyState,
 };
 use crate::{
     dof::SPACE_COUNT,
@@ -206,6 +207,18 @@ impl System {
             r[i] = dot(self.rows.row(i), q);
             velocity[i] = dot(self.rows.row(i), rates);
         }
+    }
+
+    /// Energy of structures and joints, J.
+    pub(super) fn stored_energy(&self, state: &AssemblyState) -> f64 {
+        let laws = self.laws.on.iter().zip(&state.memory).enumerate();
+        let of_laws: f64 = laws
+            .map(|(i, (laws, memory))| {
+                let r = dot(self.rows.row(i), &state.motion[..self.size]);
+                laws.stored_energy(memory, r)
+            })
+            .sum();
+        self.linear_energy(&state.motion) + of_laws
     }
 
     /// ½ q̇ᵀq̇ + ½ qᵀ K_q q, J.

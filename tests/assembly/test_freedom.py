@@ -92,6 +92,10 @@ def test_a_whole_that_nothing_holds_is_told(run, tmp_path, boundaries, joints, t
     free = [note for note in notes if note.startswith("nothing holds")]
     assert [note.split(" holds ")[1].split(":")[0] for note in free] == told
     assert all(f"free in {count} motions" in note for note in free)
+    # each is listed once, and none of them grows
+    modes = json.loads(done.stdout)["modes"]
+    assert sum(mode["frequency_hz"] == 0.0 for mode in modes) == free_motions(boundaries, joints)
+    assert all(mode["damping_ratio"] >= 0.0 for mode in modes)
     assert ("no joint connects structure a to the others" in notes) == apart
     assert all(f"note: {note}" in done.stderr for note in notes)
 

@@ -30,7 +30,7 @@ pub(crate) struct Freedom {
 
 impl Freedom {
     pub(crate) fn of(model: &AssemblyModel) -> Result<Self, AssemblyError> {
-        let free = Free::of(model)?;
+        let free = Free::of(model, Springs::OfAnyMotion)?;
         let joints = model.joints.iter().enumerate();
         let mechanisms = joints
             .filter_map(|(place, joint)| Some((place, free.mechanism(joint)?)))
@@ -39,6 +39,22 @@ impl Freedom {
             notes: free.notes(),
             mechanisms,
         })
+    }
+}
+
+/// Which springs hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Springs {
+    /// Those that hold against a motion of whatever size.
+    OfSmallMotion,
+    /// Those that only harden too.
+    OfAnyMotion,
+}
+
+impl AssemblyModel {
+    /// Motions that no spring holds while they are small: orthogonal columns over all coordinates.
+    pub(crate) fn unstrained_motions(&self) -> Result<DMatrix<f64>, AssemblyError> {
+        Ok(Free::of(self, Springs::OfSmallMotion)?.motions)
     }
 }
 
@@ -52,7 +68,7 @@ struct Free<'m> {
 }
 
 impl<'m> Free<'m> {
-    fn of(model: &'m AssemblyModel) -> Result<Self, AssemblyError> {
+    fn of(model: &'m AssemblyModel, springs: Springs) -> Result<Self, AssemblyError> {
         let mut first = vec![0];
         let mut rigid = Vec::new();
         for own in &model.structures {
@@ -70,7 +86,7 @@ impl<'m> Free<'m> {
             motions[(coordinate, column)] = 1.0;
         }
         for joint in &model.joints {
-            let rows = held(joint)? * model.relative_rows(joint);
+            let rows = held(joint, springs)? * model.relative_rows(joint);
             let units = rows.row_iter().filter_map(|row| {
                 let size = row.norm();
                 (size > 0.0).then(|| row / size)
@@ -218,12 +234,14 @@ impl<'m> Free<'m> {
 }
 
 /// Rows of the relative motions in which a joint has stiffness: of √K, or what has the same null space.
-fn held(joint: &PlacedJoint) -> Result<DMatrix<f64>, AssemblyError> {
+fn held(joint: &PlacedJoint, springs: Springs) -> Result<DMatrix<f64>, AssemblyError> {
     let (mut stiffness, _) = joint.of_small_motion_about(0.0)?;
-    let (hardened, _) = joint.of_small_motion_about(HARDENED)?;
-    for i in 0..stiffness.nrows() {
-        if stiffness[(i, i)] == 0.0 {
-            stiffness[(i, i)] = hardened[(i, i)];
+    if springs == Springs::OfAnyMotion {
+        let (hardened, _) = joint.of_small_motion_about(HARDENED)?;
+        for i in 0..stiffness.nrows() {
+            if stiffness[(i, i)] == 0.0 {
+                stiffness[(i, i)] = hardened[(i, i)];
+            }
         }
     }
     // of unit diagonal: translations and rotations have units of their own

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::assembly::Assembly;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, SymmetricEigen};
 use num_complex::Complex64;
 
 use crate::error::AssemblyError;
@@ -17,6 +17,11 @@ pub struct AssemblyMode {
     /// −Re λ/|λ|; below zero where the mode grows.
     pub damping_ratio: f64,
 }
+
+/// What rounding makes of an eigenvalue's real part, in units of the largest one's last digit times the size.
+const OF_ROUNDING: f64 = 4.0;
+/// Damping of a free motion, as a part of the largest that there is, below which it is none.
+const UNDAMPED: f64 = 1e-12;
 
 /// K and C of all joints, on the diagonal of blocks, and their relative motions.
 #[derive(Clone, Debug)]
@@ -136,18 +141,37 @@ impl AssemblyModel {
                 system[(size + i, size + j)] = -damping[(i, j)];
             }
         }
-        let mut modes: Vec<AssemblyMode> = system
-            .complex_eigenvalues()
+        // each free motion has zero twice, or once if it is damped; rounding makes of the two a pair around zero
+        let free = self.unstrained_motions()?;
+        let is_damped = |own: &&f64| **own > UNDAMPED * damping.amax();
+        let damped = match free.ncols() {
+            0 => 0,
+            _ => {
+                let among_them = SymmetricEigen::new(free.transpose() * &damping * &free);
+                among_them.eigenvalues.iter().filter(is_damped).count()
+            }
+        };
+        let zeros = 2 * free.ncols() - damped;
+        let mut values: Vec<Complex64> = system.complex_eigenvalues().iter().copied().collect();
+        values.sort_by(|one, other| one.norm().total_cmp(&other.norm()));
+        let moves_freely = AssemblyMode {
+            frequency_hz: 0.0,
+            damping_ratio: 0.0,
+        };
+        let digit = OF_ROUNDING * size as f64 * f64::EPSILON * scale;
+        let mut modes: Vec<AssemblyMode> = values
             .iter()
+            .skip(zeros)
             // one of each pair, and every one that does not oscillate
             .filter(|value| value.im >= 0.0)
             .map(|value| AssemblyMode {
                 frequency_hz: value.norm() / TAU,
-                damping_ratio: match value.norm() {
-                    0.0 => 0.0,
-                    size => -value.re / size,
+                damping_ratio: match value.re.abs() <= digit {
+                    true => 0.0,
+                    false => -value.re / value.norm(),
                 },
             })
+            .chain(std::iter::repeat_n(moves_freely, free.ncols()))
             .collect();
         modes.sort_by(|one, other| one.frequency_hz.total_cmp(&other.frequency_hz));
         Ok(modes)

@@ -10,6 +10,8 @@ use crate::modal_form::ModalForm;
 
 /// Deflections that others make up to this part (of their kinetic energy) are none of their own.
 const DEPENDENT: f64 = 1e-10;
+/// Rounding of a product with the basis, as a part of the largest that it can be.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// All modes of a structure, in ascending order.
 pub(crate) struct AllModes {
@@ -58,15 +60,27 @@ impl AllModes {
         frequency
             .rows_mut(kept, basis.ncols())
             .copy_from(&own_squares.map(f64::sqrt));
+        let damping = basis_of_all.transpose() * &self.damping_per_s * &basis_of_all;
         ModalForm {
             points: self.points,
             frequency_rad_per_s: frequency,
-            damping_per_s: basis_of_all.transpose() * &self.damping_per_s * &basis_of_all,
+            damping_per_s: without_rounding(&damping),
             shapes: &self.shapes * &basis_of_all,
             modes: kept,
             cut,
         }
     }
+}
+
+/// A damping matrix without what rounding has left between coordinates that do not damp each other.
+fn without_rounding(damping: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(damping.nrows(), damping.ncols(), |i, j| {
+        let rounding = ROUNDING * (damping[(i, i)] * damping[(j, j)]).sqrt();
+        match i == j || damping[(i, j)].abs() > rounding {
+            true => damping[(i, j)],
+            false => 0.0,
+        }
+    })
 }
 
 /// ω² of the pseudo-modes, and what they are of the cut modes.

@@ -95,3 +95,45 @@ impl Complex {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_keep_the_digits_of_their_smaller_part() {
+        for (re, im) in [
+            (3.0, 4.0),
+            (-1.0, 1e-12),
+            (1.0, -1e-12),
+            (-4.0, 0.0),
+            (0.0, -2.0),
+            (-1e8, 1e-3),
+        ] {
+            let root = Complex { re, im }.square_root();
+            let square = root.times(root);
+            assert!(
+                (square.re - re).abs() <= 4e-16 * square.modulus(),
+                "{re} {im}"
+            );
+            assert!((square.im - im).abs() <= 4e-16 * im.abs(), "{re} {im}");
+            assert!(root.re >= 0.0);
+        }
+    }
+
+    #[test]
+    fn the_exponential_is_a_decaying_rotation() {
+        for (re, im) in [(0.0, 1e-9), (-0.3, 0.7), (-2.0, 50.0), (1.0, -3.0)] {
+            let found = Complex { re, im }.exponential();
+            let (sine, cosine) = f64::sin_cos(im);
+            let expected = Complex {
+                re: cosine,
+                im: sine,
+            }
+            .scaled(f64::exp(re));
+            let error = found.minus(expected).modulus() / expected.modulus();
+            // an angle is known to its last bit
+            assert!(error < 4e-16 * (2.0 + im.abs()), "{re} {im}: {error}");
+        }
+    }
+}

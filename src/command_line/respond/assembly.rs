@@ -106,11 +106,14 @@ fn told(model: &AssemblyModel, answer: &AssemblyAnswer) -> String {
     }
     let _ = writeln!(text, "modes of small motion:");
     for mode in answer.modes.iter().take(MODES_TOLD) {
-        let _ = writeln!(
-            text,
-            "  {:>10.3} Hz, damping ratio {:.3e}",
-            mode.frequency_hz, mode.damping_ratio
-        );
+        let _ = match mode.frequency_hz {
+            0.0 => writeln!(text, "  {:>10} Hz, moves freely", 0),
+            frequency_hz => writeln!(
+                text,
+                "  {frequency_hz:>10.3} Hz, damping ratio {:.3e}",
+                mode.damping_ratio
+            ),
+        };
     }
     if let Some(more) = answer
         .modes

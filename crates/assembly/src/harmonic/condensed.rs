@@ -19,8 +19,10 @@ use crate::model::AssemblyModel;
 #[derive(Clone, Debug)]
 pub(super) struct Condensed<'m> {
     model: &'m AssemblyModel,
-    /// K and C of the linear laws, and all relative motions.
+    /// K and C of the linear laws.
     joints: Joints,
+    /// All relative motions, S.
+    relative: DMatrix<Complex64>,
     /// Places of the DOFs that have laws beside the linear one among all relative motions, and these laws.
     pub(super) laws: Vec<(usize, DofLaws)>,
     inputs: DMatrix<Complex64>,
@@ -77,9 +79,11 @@ impl<'m> Condensed<'m> {
             laws.extend(joint.with_laws().map(|(dof, laws)| (first + dof, *laws)));
             first += joint.laws.len();
         }
+        let joints = model.linear_joints(&equations);
         Ok(Self {
             model,
-            joints: model.linear_joints(&equations),
+            relative: joints.relative.map(Complex64::from),
+            joints,
             laws,
             inputs: model.input_rows().transpose().map(Complex64::from),
             outputs: model.output_rows().map(Complex64::from),
@@ -94,11 +98,15 @@ impl<'m> Condensed<'m> {
     /// The assembly at a frequency under these loads; `None` where it has no finite motion.
     pub(super) fn at(&self, at: At, loads: &DVector<Complex64>) -> Option<Dynamic> {
         let nu = at.frequency_rad_per_s;
-        let relative = self.joints.relative.map(Complex64::from);
+        let relative = &self.relative;
         let motion =
             |loads: &DMatrix<Complex64>| self.model.motion_released(nu, at.released_per_s, loads);
         let by_joints = motion(&relative.transpose())?;
-        let by_load = motion(&DMatrix::from_columns(&[&self.inputs * loads]))?;
+        let loads = DMatrix::from_columns(&[&self.inputs * loads]);
+        let by_load = match loads.iter().all(|own| *own == Complex64::ZERO) {
+            true => loads,
+            false => motion(&loads)?,
+        };
         let size = relative.nrows();
         let dynamic = DMatrix::from_fn(size, size, |i, j| {
             Complex64::new(
@@ -106,14 +114,14 @@ impl<'m> Condensed<'m> {
                 nu * self.joints.damping[(i, j)],
             )
         });
-        let own = &relative * &by_joints;
+        let own = relative * &by_joints;
         let closed = (DMatrix::identity(size, size) + &own * &dynamic).lu();
         // relative motions of all joints by u and by f on the DOFs that have laws
         let places: Vec<usize> = self.laws.iter().map(|&(place, _)| place).collect();
         let forces = DMatrix::from_fn(size, places.len(), |i, j| {
             Complex64::from(f64::from(u8::from(places[j] == i)))
         });
-        let r_by_load = closed.solve(&(&relative * &by_load))?;
+        let r_by_load = closed.solve(&(relative * &by_load))?;
         let r_by_forces = -closed.solve(&(&own * &forces))?;
         let receptance = DMatrix::from_fn(places.len(), places.len(), |i, j| {
             -r_by_forces[(places[i], j)]

@@ -60,6 +60,11 @@ impl Matrix {
         &self.values[i * self.columns..(i + 1) * self.columns]
     }
 
+    /// All rows, one after the other.
+    pub(super) fn rows_mut(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.values.chunks_exact_mut(self.columns.max(1))
+    }
+
     #[inline]
     fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.values[i * self.columns..(i + 1) * self.columns]
@@ -365,5 +370,21 @@ mod tests {
         for i in 0..5 {
             assert!((sum[i] - 1.0 - product[(i, 2)]).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn a_triangle_times_its_own_transpose_is_the_matrix() {
+        let factor = random(4, 6, 5);
+        let matrix = factor.product(&factor.transposed());
+        let lower = matrix.cholesky().unwrap();
+        let off = lower.product(&lower.transposed()).plus(-1.0, &matrix);
+        assert!(off.norm() < 1e-14 * matrix.norm());
+        assert!((0..4).all(|i| (i + 1..4).all(|j| lower[(i, j)] == 0.0)));
+        // stiff in two directions of three
+        let flat = factor.block([0, 0], 3, 2);
+        let flat = flat.product(&flat.transposed());
+        let lower = flat.cholesky().unwrap();
+        assert!(lower.product(&lower.transposed()).plus(-1.0, &flat).norm() < 1e-14);
+        assert_eq!(matrix.times(-1.0).cholesky(), None);
     }
 }

@@ -11,22 +11,25 @@ use crate::{complex::Complex, elementary::hypotenuse};
 
 /// Fewer coordinates gain nothing.
 const FEWEST: usize = 8;
-/// Iterations for one mode; a few are usual, and where dampers couple modes so much that these do not do there is no such frame.
-const MAX_ITERATIONS: usize = 100;
-/// Change of a mode at which it is found.
-const AT_REST: f64 = 4.0 * f64::EPSILON;
+/// Iterations for one mode; a few are usual, and a hundred where dampers couple two that are near each other. Where these do not do
+/// there is no such frame.
+const MAX_ITERATIONS: usize = 400;
+/// Change of a mode, as a part of it, at which it is found.
+const AT_REST: f64 = 1e-13;
 /// Sweeps over all pairs for the undamped modes; eight are usual.
 const MAX_SWEEPS: usize = 40;
 /// Cosine of the angle between two columns that are orthogonal.
 const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 /// An undamped ω² below this part of the largest one is that of a free motion.
 const FREE: f64 = 1e-15;
-/// Largest entry by which the propagator of the modes may differ from the exponential, in units of its own scale.
+/// What the modes may miss of a motion, as a part of it.
 const LARGEST_ERROR: f64 = 1e-11;
+/// Motions that they are tried with.
+const PROBES: u64 = 4;
 
 /// How a pair of coordinates goes on.
 #[derive(Clone, Copy, Debug)]
-enum Pair {
+pub(super) enum Pair {
     /// λ and its conjugate.
     Turning(Complex),
     /// Displacement and rate of a free motion.
@@ -122,34 +125,61 @@ impl Frame {
         self.pairs.push(Pair::Free);
     }
 
-    /// How each pair goes on over a time (s).
-    pub(super) fn turns(&self, length_s: f64) -> Turns {
-        let of = |pair: &Pair| match pair {
-            Pair::Free => [1.0, length_s, 0.0, 1.0],
-            Pair::Turning(lambda) => {
-                let Complex { re, im } = lambda.scaled(length_s).exponential();
-                [re, im, -im, re]
-            }
+    /// Whether these are the coordinates of y, and go on as it does: V V⁻¹ y = y and V Λ z = A V z, in coordinates D q (`scale`) and q̇,
+    /// for motions of all coordinates at once.
+    pub(super) fn is_whole(&self, system: &System, scale: &[f64]) -> bool {
+        let n = system.size;
+        let largest = scale
+            .iter()
+            .fold(0.0, |largest: f64, own| largest.max(*own));
+        let is_near = |one: &[f64], other: &[f64], unit: f64| {
+            let off = |i: usize| (one[i] - other[i]).abs() * if i < n { scale[i] } else { 1.0 };
+            (0..2 * n).all(|i| off(i) < LARGEST_ERROR * unit)
         };
-        Turns(self.pairs.iter().map(of).collect())
+        (1..=PROBES).all(|probe| {
+            // signs without any order
+            let mut bits = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(2 * probe + 1);
+            let mut sign = || {
+                bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                if bits >> 63 == 0 { 1.0 } else { -1.0 }
+            };
+            let unit = |i: usize| if i < n { scale[i] } else { 1.0 };
+            let y: Vec<f64> = (0..2 * n).map(|i| sign() / unit(i)).collect();
+            let of = |matrix: &Matrix, x: &[f64]| {
+                let mut product = vec![0.0; 2 * n];
+                matrix.add_product_to(x, &mut product);
+                product
+            };
+            let mut z = of(&self.to_modes, &y);
+            let again = of(&self.out_of_modes, &z);
+            self.take_rates(&mut z);
+            let found = of(&self.out_of_modes, &z);
+            let mut rates = y[n..].to_vec();
+            for i in 0..n {
+                let load =
+                    dot(system.stiffness.row(i), &y[..n]) + dot(system.damping.row(i), &y[n..]);
+                rates.push(-load);
+            }
+            is_near(&again, &y, 1.0) && is_near(&found, &rates, largest)
+        })
     }
 
-    /// Whether the modes give this exponential of a time (s), entry by entry in coordinates D q (`scale`) and q̇.
-    pub(super) fn gives(&self, exponential: &Matrix, length_s: f64, scale: &[f64]) -> bool {
-        let n = scale.len();
-        let turns = self.turns(length_s);
-        let mut column = vec![0.0; 2 * n];
-        let unit = |i: usize| if i < n { scale[i] } else { 1.0 };
-        (0..2 * n).all(|j| {
-            for (i, own) in column.iter_mut().enumerate() {
-                *own = self.to_modes[(i, j)];
-            }
-            turns.turn(&mut column);
-            (0..2 * n).all(|i| {
-                let found = dot(self.out_of_modes.row(i), &column);
-                (found - exponential[(i, j)]).abs() * unit(i) / unit(j) < LARGEST_ERROR
-            })
-        })
+    /// z ← Λ z
+    fn take_rates(&self, z: &mut [f64]) {
+        for (pair, own) in z.chunks_exact_mut(2).zip(&self.pairs) {
+            let [first, second] = [pair[0], pair[1]];
+            let [a, b, c, d] = match own {
+                Pair::Free => [0.0, 1.0, 0.0, 0.0],
+                Pair::Turning(Complex { re, im }) => [*re, *im, -im, *re],
+            };
+            pair[0] = a * first + b * second;
+            pair[1] = c * first + d * second;
+        }
+    }
+
+    /// How the pairs of coordinates go on.
+    pub(super) fn pairs(&self) -> &[Pair] {
+        &self.pairs
     }
 
     /// V
@@ -160,21 +190,6 @@ impl Frame {
     /// V⁻¹
     pub(super) fn to_modes(&self) -> &Matrix {
         &self.to_modes
-    }
-}
-
-/// e^{hΛ}: two rows of two numbers for each pair.
-#[derive(Clone, Debug)]
-pub(super) struct Turns(Vec<[f64; 4]>);
-
-impl Turns {
-    /// z ← e^{hΛ} z
-    pub(super) fn turn(&self, z: &mut [f64]) {
-        for (pair, [a, b, c, d]) in z.chunks_exact_mut(2).zip(&self.0) {
-            let [first, second] = [pair[0], pair[1]];
-            pair[0] = a * first + b * second;
-            pair[1] = c * first + d * second;
-        }
     }
 }
 
@@ -193,6 +208,7 @@ impl Mode {
         let mut lambda = root(Complex::real(damping[(k, k)]), squares[k])?;
         for _ in 0..MAX_ITERATIONS {
             let mut change = 0.0_f64;
+            let mut size = 1.0_f64;
             let square = lambda.times(lambda);
             for j in (0..n).filter(|&j| j != k) {
                 let row = damping.row(j);
@@ -206,6 +222,7 @@ impl Mode {
                     .times(divisor.reciprocal())
                     .scaled(-1.0);
                 change = change.max(next.minus(shape[j]).modulus());
+                size = size.max(next.modulus());
                 shape[j] = next;
             }
             let next = root(along(damping.row(k), &shape), squares[k])?;
@@ -214,7 +231,7 @@ impl Mode {
             if !(change.is_finite() && rest.is_finite()) {
                 return None;
             }
-            if change.max(rest) < AT_REST {
+            if (change / size).max(rest) < AT_REST {
                 return Some(Self { lambda, shape });
             }
         }

@@ -8,12 +8,7 @@
 //! All of them, and the integrals of the motion that the work of the forces takes, are blocks of one exponential, with no
 //! inverse, so that motions of free bodies need no care. That of twice the length is its square.
 
-use super::{
-    exponential::Growth,
-    matrix::Matrix,
-    modes::{Frame, Turns},
-    system::System,
-};
+use super::{exponential::Growth, matrix::Matrix, modal::Turns, system::System};
 
 /// Powers of time that the joints' forces of a step have: constant to quartic. Loads go up to the cube.
 pub(super) const POWERS: usize = 5;
@@ -55,19 +50,19 @@ impl Going {
         }
     }
 
-    /// R E of some rows; nothing mode by mode, where E is no matrix.
+    /// R E of some rows.
     pub(super) fn seen_by(&self, rows: &Matrix) -> Matrix {
         match self {
             Self::Whole(matrix) => rows.product(matrix),
-            Self::Turning(_) => Matrix::zeros(rows.rows(), rows.columns()),
+            Self::Turning(turns) => turns.seen_by(rows),
         }
     }
 
-    /// Whether modes give this E of a time (s).
-    pub(super) fn is_given_by(&self, frame: &Frame, length_s: f64, scale: &[f64]) -> bool {
+    /// Whether every number is finite.
+    pub(super) fn is_finite(&self) -> bool {
         match self {
-            Self::Whole(matrix) => frame.gives(matrix, length_s, scale),
-            Self::Turning(_) => true,
+            Self::Whole(matrix) => matrix.is_finite(),
+            Self::Turning(turns) => turns.is_finite(),
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
     state::AssemblyState,
     system::System,
 };
-use crate::law::Corner;
+use crate::law::{Corner, DOF_AT_REST, DofLaws, DofMemory};
 
 /// Sweeps over the nodes for the joints' forces, at most; five to eight are usual.
 const MOST_SWEEPS: usize = 24;
@@ -52,10 +52,10 @@ pub(super) struct Scratch {
     forces: Vec<f64>,
     /// Loads and forces as powers of time.
     powers: [Vec<f64>; POWERS],
+    /// What each law that knows time remembers at the nodes, as it goes from one to the next.
+    trails: Vec<Trail>,
     /// What may be missing of the forces, polynomial by polynomial of Legendre.
     missing: [Vec<f64>; NODES],
-    /// ∫ Rq dθ and the integrals over it.
-    moments: [Vec<f64>; MOMENTS],
     /// ∂f/∂r and ∂f/∂ṙ of each law.
     tangents: Vec<[f64; 2]>,
     /// Largest (r, ṙ) at the nodes, and what the latest sweep changed of them.
@@ -63,6 +63,43 @@ pub(super) struct Scratch {
     changes: Vec<f64>,
     /// Corners of a law at the beginning.
     corners: Vec<f64>,
+}
+
+/// A law that knows time, node by node: it takes the mean velocity on its way, so that it errs with the square of the way's length.
+#[derive(Clone, Copy, Debug)]
+struct Trail {
+    memory: [DofMemory; NODES],
+    /// Heat on the way to each node, J.
+    heat_j: [f64; NODES],
+}
+
+impl Trail {
+    const AT_REST: Self = Self {
+        memory: [DOF_AT_REST; NODES],
+        heat_j: [0.0; NODES],
+    };
+
+    /// Goes on to the node `to` at (r, ṙ); what the load there is more than that on one way from the first node.
+    fn go_on(&mut self, laws: &DofLaws, to: usize, [r, velocity]: [f64; 2]) -> f64 {
+        let (earlier, later) = self.memory.split_at_mut(to);
+        let (Some(first), Some(last)) = (earlier.first(), earlier.last()) else {
+            return 0.0;
+        };
+        let more = laws.load(last, r, velocity) - laws.load(first, r, velocity);
+        laws.copy_memory(last, &mut later[0]);
+        self.heat_j[to] = laws.commit(&mut later[0], r, velocity);
+        more
+    }
+
+    /// What the load at the end is other than on a way with one stop in the middle, about half of which is what it errs by: the
+    /// cubes of the ways between the nodes come to a third of those of two halves.
+    fn error(&self, laws: &DofLaws, middle: [f64; 2], [r, velocity]: [f64; 2]) -> f64 {
+        let [first, .., last, _] = &self.memory;
+        let mut memory = DOF_AT_REST;
+        laws.copy_memory(first, &mut memory);
+        laws.commit(&mut memory, middle[0], middle[1]);
+        0.5 * (laws.load(last, r, velocity) - laws.load(&memory, r, velocity)).abs()
+    }
 }
 
 /// The laws at the nodes: those that follow a preload, or those that never change.
@@ -85,8 +122,8 @@ impl Scratch {
             free: vec![0.0; LATER * 2 * d],
             forces: vec![0.0; NODES * d],
             powers: std::array::from_fn(|_| vec![0.0; m + d]),
+            trails: vec![Trail::AT_REST; system.timed.len()],
             missing: std::array::from_fn(|_| vec![0.0; d]),
-            moments: std::array::from_fn(|_| vec![0.0; m + d]),
             tangents: vec![[0.0; 2]; d],
             sizes: vec![0.0; 2 * d],
             changes: vec![0.0; 2 * d],
@@ -215,6 +252,9 @@ impl Scratch {
         for own in others.chunks_exact_mut(d) {
             own.copy_from_slice(first);
         }
+        for (trail, &i) in self.trails.iter_mut().zip(&system.timed) {
+            begin.on[i].copy_memory(&before.memory[i], &mut trail.memory[0]);
+        }
         let mut latest = f64::INFINITY;
         for sweep in 0..MOST_SWEEPS {
             self.changes.fill(0.0);
@@ -232,6 +272,10 @@ impl Scratch {
                 }
                 let forces = &mut self.forces[(node + 1) * d..(node + 2) * d];
                 laws.forces(system, &before.memory, relative, forces);
+                for (trail, &i) in self.trails.iter_mut().zip(&system.timed) {
+                    let at = [relative[i], relative[d + i]];
+                    forces[i] += trail.go_on(&laws.on[i], node + 1, at);
+                }
             }
             // before the first sweep the motions were those of another step
             if sweep > 0 {
@@ -239,8 +283,9 @@ impl Scratch {
                 if change <= at_rest {
                     return true;
                 }
-                // not a number is no end either
-                if sweep > 1 && !(change <= SLOWEST * latest) {
+                // nor does what is not a number
+                let goes_down = change <= SLOWEST * latest;
+                if sweep > 1 && !goes_down {
                     return false;
                 }
                 latest = change;
@@ -255,7 +300,11 @@ impl Scratch {
         let both = |own: &[f64], i: usize| own[i] + own[d + i] / rate_per_s;
         (0..d).fold(0.0, |largest: f64, i| match both(of, i) {
             0.0 => largest,
-            own => largest.max(own / both(&self.sizes, i)),
+            // what is not a number stays so
+            own => match own / both(&self.sizes, i) {
+                part if part <= largest || largest.is_nan() => largest,
+                part => part,
+            },
         })
     }
 
@@ -281,6 +330,12 @@ impl Scratch {
             for (own, missing) in self.missing.iter_mut().zip(missing) {
                 own[i] = missing;
             }
+        }
+        let [.., at_end] = at_nodes(system, &self.laws);
+        for (trail, &i) in self.trails.iter().zip(&system.timed) {
+            let [.., middle, _, end] = self.relative.each_ref().map(|own| [own[i], own[d + i]]);
+            // as if it lasted for the whole step
+            self.missing[0][i] += trail.error(&at_end.on[i], middle, end);
         }
     }
 
@@ -318,19 +373,25 @@ impl Scratch {
         } = means;
         let h = rung.length_s;
         let (m, d) = (system.loads, system.forces());
-        self.moments_over(&rung.whole, &before.motion);
-        let [z1, z2, z3, z4] = &self.moments;
-        let place = |state: &[f64], p: usize| dot(sight.places.row(p), state);
+        let [begin, .., end] = &self.relative;
+        // what joints have seen already, and what loads see
+        let ends = |p: usize| match p.checked_sub(m) {
+            Some(law) => [begin[law], end[law]],
+            None => [&before.motion, &self.state.motion].map(|own| dot(sight.places.row(p), own)),
+        };
         // ∫ wᵀ dx = [wᵀ x] − ∫ (dw/dθ)ᵀ x dθ, with ∫ θ x dθ = z₁ − z₂, ∫ θ² x dθ = z₁ − 2z₂ + 2z₃, …
         let work = |p: usize| {
             let [w0, w1, w2, w3, w4] = self.powers.each_ref().map(|power| power[p]);
-            let (from, to) = (place(&before.motion, p), place(&self.state.motion, p));
+            let [from, to] = ends(p);
+            if [w1, w2, w3, w4] == [0.0; POWERS - 1] {
+                return w0 * (to - from);
+            }
+            let [z1, z2, z3, z4] = self.moments_of(&rung.whole, &before.motion, p);
             let end = w0 + w1 + 0.5 * w2 + w3 / 6.0 + w4 / 24.0;
-            let linear = z1[p] - z2[p];
-            let quadratic = z1[p] - 2.0 * (z2[p] - z3[p]);
-            let cubic = z1[p] - 3.0 * z2[p] + 6.0 * (z3[p] - z4[p]);
-            let change = w1 * z1[p] + w2 * linear + 0.5 * w3 * quadratic + w4 / 6.0 * cubic;
-            end * to - w0 * from - change
+            let linear = z1 - z2;
+            let quadratic = z1 - 2.0 * (z2 - z3);
+            let cubic = z1 - 3.0 * z2 + 6.0 * (z3 - z4);
+            end * to - w0 * from - (w1 * z1 + w2 * linear + 0.5 * w3 * quadratic + w4 / 6.0 * cubic)
         };
         let supplied: f64 = (0..m).map(work).sum();
         let into_laws: f64 = (m..m + d).map(work).sum();
@@ -342,10 +403,13 @@ impl Scratch {
             heat += weight * h * laws.viscous_power(system, r, velocity);
         }
         let [.., at_end] = laws;
-        let [.., end] = &self.relative;
         for (i, memory) in self.state.memory.iter_mut().enumerate() {
             let laws = &at_end.on[i];
-            if laws.have_memory() {
+            if let Some(which) = system.timed.iter().position(|&timed| timed == i) {
+                let trail = &self.trails[which];
+                laws.copy_memory(&trail.memory[LATER], memory);
+                heat += trail.heat_j[1..].iter().sum::<f64>();
+            } else if laws.have_memory() {
                 laws.copy_memory(&before.memory[i], memory);
                 heat += laws.commit(memory, end[i], end[d + i]);
             }
@@ -354,17 +418,13 @@ impl Scratch {
         self.state.dissipated_j = before.dissipated_j + heat;
     }
 
-    fn moments_over(&mut self, whole: &Blocks, motion: &[f64]) {
-        let blocks = whole.moments.iter().zip(&whole.moments_by);
-        for (moment, (state, by)) in self.moments.iter_mut().zip(blocks) {
-            moment.fill(0.0);
-            state.add_product_to(motion, moment);
-            for (block, power) in by.iter().zip(&self.powers) {
-                if is_there(power) {
-                    block.add_product_to(power, moment);
-                }
-            }
-        }
+    /// ∫ x dθ of the displacement under a load or of a law, and the integrals over it.
+    fn moments_of(&self, whole: &Blocks, motion: &[f64], p: usize) -> [f64; MOMENTS] {
+        std::array::from_fn(|moment| {
+            let by = whole.moments_by[moment].iter().zip(&self.powers);
+            let forced: f64 = by.map(|(block, power)| dot(block.row(p), power)).sum();
+            dot(whole.moments[moment].row(p), motion) + forced
+        })
     }
 
     /// Whether within the step that was found a law that remembers turns or passes a corner of its load.

@@ -31,10 +31,9 @@ pub(super) struct Stages {
 }
 
 impl Stages {
-    /// By what becomes of a state over the time of each node after the first.
-    pub(super) fn of(system: &System, to_nodes: [&Blocks; LATER]) -> Self {
+    /// By what becomes of a state over the time of each node after the first, and what `rows` (2d × 2n) see of it.
+    pub(super) fn of(system: &System, rows: &Matrix, to_nodes: [&Blocks; LATER]) -> Self {
         let (m, d) = (system.loads, system.forces());
-        let rows = relative_rows(system);
         let size = 2 * system.size;
         let seen = |of: &dyn Fn(&Blocks, usize) -> Matrix, power: usize| {
             // θᵖ is the p-th power of the node's own time times that of the whole
@@ -63,7 +62,7 @@ impl Stages {
             by_forces.set_block([0, node * d], &along(own, LATER * 2 * d));
         }
         Self {
-            by_state: Matrix::stacked(to_nodes.iter().map(|blocks| blocks.state.seen_by(&rows))),
+            by_state: Matrix::stacked(to_nodes.iter().map(|blocks| blocks.state.seen_by(rows))),
             by_loads: std::array::from_fn(|power| seen(&of_loads, power)),
             by_forces,
             of_legendre: std::array::from_fn(|k| along(powers(unit(k)), 2 * d).moduli()),
@@ -73,13 +72,4 @@ impl Stages {
 
 fn unit(place: usize) -> [f64; NODES] {
     std::array::from_fn(|i| if i == place { 1.0 } else { 0.0 })
-}
-
-/// (S, 0; 0, S): relative displacements and their rates by q and q̇.
-pub(super) fn relative_rows(system: &System) -> Matrix {
-    let (n, d) = (system.size, system.forces());
-    let mut rows = Matrix::zeros(2 * d, 2 * n);
-    rows.set_block([0, 0], &system.rows);
-    rows.set_block([d, n], &system.rows);
-    rows
 }

@@ -102,20 +102,14 @@ impl AssemblySteps {
         self.is_too_long = false;
         self.longest = 0;
         let stored = self.system.linear_energy(&state.motion);
-        if let Some(frame) = &self.ladder.frame {
-            replace(frame.to_modes(), &mut state.motion, &mut self.room);
-        }
         let parts = self.part(state, 0, HALVINGS_AT_EVENTS);
-        if let Some(frame) = &self.ladder.frame {
-            replace(frame.out_of_modes(), &mut state.motion, &mut self.room);
-        }
         // what of the work is neither stored nor given to the laws is heat of the linear dampers
         state.dissipated_j -= self.system.linear_energy(&state.motion) - stored;
         parts
     }
 
-    /// Whether in the latest step some of its shortest parts were still too long for the stiffness of the joints, so that the
-    /// tolerance does not hold.
+    /// Whether in the latest step one of its shortest parts was still too long for the stiffness of the joints. The step ends there:
+    /// the state is not that of its end.
     #[must_use]
     pub fn was_too_long(&self) -> bool {
         self.is_too_long
@@ -123,6 +117,10 @@ impl AssemblySteps {
 
     /// One step of the given level, with the loads in its scratch, that may still be halved so often at events.
     fn part(&mut self, state: &mut AssemblyState, level: usize, at_events: usize) -> usize {
+        if self.is_too_long {
+            // nothing holds any more
+            return 0;
+        }
         let (Some(rung), Some(own)) = (self.ladder.rungs.get(level), self.scratch.get_mut(level))
         else {
             return 0;
@@ -130,7 +128,7 @@ impl AssemblySteps {
         let is_finest = level + 1 == self.ladder.rungs.len();
         let means = Means {
             system: &self.system,
-            sight: &self.ladder.sight,
+            sight: self.ladder.sight(level),
             rung,
         };
         own.follow(&self.system);
@@ -139,8 +137,7 @@ impl AssemblySteps {
             true => own.find_forces(means, state, self.tolerance),
             false => None,
         };
-        // an error that is not a number is that of a motion beyond all bounds
-        let is_steep = error.is_none_or(|error| error > 1.0);
+        let is_steep = !error.is_some_and(|error| error <= 1.0);
         let has_event = !is_steep && own.has_event(means, state);
         let at_events = match is_finest {
             true => None,
@@ -165,11 +162,20 @@ impl AssemblySteps {
         if let [own, next, ..] = &mut self.scratch[level..] {
             halve(&own.loads, &mut next.loads);
         }
+        // halves are taken mode by mode
+        let frame = self.ladder.frame.as_ref().filter(|_| level == 0);
+        if let Some(frame) = frame {
+            replace(frame.to_modes(), &mut state.motion, &mut self.room);
+        }
         let first = self.part(state, level + 1, at_events);
         if let Some(next) = self.scratch.get_mut(level + 1) {
             go_on(&mut next.loads);
         }
-        first + self.part(state, level + 1, at_events)
+        let second = self.part(state, level + 1, at_events);
+        if let Some(frame) = self.ladder.frame.as_ref().filter(|_| level == 0) {
+            replace(frame.out_of_modes(), &mut state.motion, &mut self.room);
+        }
+        first + second
     }
 
     /// Energy stored in structures and joints, J; of joints over the preload at that at which the linear part is.

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     dof::SPACE_COUNT,
-    law::{DofLaws, JointLaw, Linear},
+    law::{DofLaws, JointLaw, Law, Linear, LuGre},
 };
 
 /// Structures, and joints between them.
@@ -115,6 +115,8 @@ pub(super) struct System {
     pub(super) rows: Matrix,
     /// The laws on these DOFs.
     pub(super) laws: LawsAt,
+    /// Which of them have a law whose load depends on how fast it came there.
+    pub(super) timed: Vec<usize>,
     /// The joints over the preload among them.
     pub(super) following: Vec<Following>,
     /// S Sᵀ of these DOFs, 1/kg: accelerations by loads.
@@ -171,6 +173,7 @@ impl System {
             load_rows: assembly.loads.transposed(),
             mobility: rows.product(&rows.transposed()),
             rows,
+            timed: (0..laws.len()).filter(|&i| is_timed(&laws[i])).collect(),
             laws: LawsAt::propagated(laws, following.len()),
             following,
             squares,
@@ -238,6 +241,12 @@ impl System {
         let joints: f64 = self.springs.iter().map(of_joint).sum();
         0.5 * (dot(rates, rates) + strain + joints)
     }
+}
+
+/// All laws but LuGre's know places alone.
+fn is_timed(laws: &DofLaws) -> bool {
+    let name = <LuGre as Law<f64>>::DECLARATION.name;
+    laws.present().any(|law| law.name == name)
 }
 
 /// A matrix of a joint as that of a joint in space, with zeros for what it has not.

@@ -74,9 +74,9 @@ fn a_step_is_that_of_collocation_in_all_coordinates() {
 /// After 1 ms; mpmath to 20 digits.
 const AFTER_A_MILLISECOND: [f64; 4] = [
     4.2566380198772553e-4,
-    1.6728456008672751e-4,
-    0.45039362923660168,
-    -0.66837058082091472,
+    1.672_845_600_867_275e-4,
+    0.450_393_629_236_601_7,
+    -0.668_370_580_820_914_7,
 ];
 
 #[test]
@@ -84,9 +84,9 @@ fn the_error_is_of_eighth_order() {
     // after 4 ms; mpmath to 20 digits
     let exact = [
         -3.1601605925632135e-4,
-        -1.2483146144370409e-4,
-        0.39367282495679278,
-        -0.61843935913526252,
+        -1.248_314_614_437_041e-4,
+        0.393_672_824_956_792_8,
+        -0.618_439_359_135_262_5,
     ];
     let error = |count: u32| {
         let (state, ..) = after(&cubic(), 4e-3, count, 0.0, f64::INFINITY);

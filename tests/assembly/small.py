@@ -63,6 +63,34 @@ def with_cubic(times, load, cubic):
     return done.y.T
 
 
+def with_lugre(end, load, law):
+    """State at the end from rest under a held load, each piece between two turns by itself."""
+    time, state, turns = 0.0, np.zeros(5), 0
+    stiffness, slip, static = law["stiffness"], law["slip_force"], law["static_force"]
+
+    def rate(_, state, direction):
+        v, z = state[2] - state[3], state[4]
+        g = slip + (static - slip) * np.exp(-((v / law["stribeck_velocity"]) ** 2))
+        z_rate = v - stiffness * direction * v * z / g
+        friction = stiffness * z + law["bristle_damping"] * z_rate + law["damping"] * v
+        return [*rates(state[:4], load, friction), z_rate]
+
+    def turn(_, state, direction):
+        return (state[2] - state[3]) * direction
+
+    turn.terminal, turn.direction = True, -1
+    # the load on b moves it away from a
+    direction = -1
+    while time < end:
+        done = solve_ivp(
+            rate, (time, end), state, method="DOP853", rtol=1e-12, atol=1e-15, events=turn, args=(direction,)
+        )
+        time, state = done.t[-1], done.y[:, -1]
+        if done.status == 1:
+            direction, turns = -direction, turns + 1
+    return state[:4], turns
+
+
 def with_slider(end, load, stiffness, slip):
     """State at the end from rest under a held load, every stick and slip of the slider located by SciPy."""
     time, state, place, direction = 0.0, np.zeros(4), 0.0, 0

@@ -10,6 +10,16 @@ from scipy.integrate import solve_ivp
 
 CUBIC = {"cubic": [1e12]}
 SLIDER = {"friction": [{"dof": "y", "law": "jenkins", "stiffness": 2e6, "slip_force": 60.0}]}
+LUGRE = {
+    "dof": "y",
+    "law": "lugre",
+    "stiffness": 2e6,
+    "bristle_damping": 100.0,
+    "damping": 40.0,
+    "slip_force": 60.0,
+    "static_force": 80.0,
+    "stribeck_velocity": 0.05,
+}
 INNER = {
     "friction": [
         {
@@ -57,6 +67,19 @@ def test_a_slider_is_that_of_scipy(slave, tmp_path, step):
     assert energies[0] - energies[1] - energies[2] == pytest.approx(0, abs=1e-8 * energies[0])
     [load, friction] = fmu.get("lap.F", "lap.jenkins_slider_y")
     assert np.isfinite(load) and friction != 0
+
+
+@pytest.mark.parametrize("step", [1e-4, 5e-4])
+def test_bristles_are_those_of_scipy(slave, tmp_path, step):
+    """LuGre's law alone knows time, and is of second order: errors of many short parts add up."""
+    fmu = slave(small.write(tmp_path, {"friction": [LUGRE]}))
+    fmu.initialise()
+    found = stepped(fmu, 200.0, step, round(0.02 / step))[-1]
+    expected, turns = small.with_lugre(0.02, 200.0, LUGRE)
+    assert turns > 3
+    assert np.abs(found / expected - 1).max() < 1e-5
+    energies = fmu.get("energy.supplied", "energy.dissipated", "energy.stored")
+    assert energies[0] - energies[1] - energies[2] == pytest.approx(0, abs=1e-5 * energies[0])
 
 
 @both_versions

@@ -128,6 +128,27 @@ fn a_planned_test_identifies_the_joint_that_it_was_planned_with() {
     );
 }
 
+/// A longer tool is the softer one: 70 and 90 mm.
+#[test]
+fn a_tool_s_point_answers_with_bands() {
+    let bench = files_of("tool-point");
+    let files = "-o tool.csv --report tool.svg --deviations deviations.csv";
+    let answered = bench.done(&format!("respond study.toml --step 50 {files}"));
+    has(&answered.stdout, &["tool point: 2 functions of 79 lines"]);
+    has(&bench.text("tool.svg"), &["31:+Y/31:+Y", "upper end"]);
+    let at_100_hz = |bench: &Bench| -> f64 {
+        let table = bench.text("tool.csv");
+        let row = table.lines().nth(1).unwrap().split(',');
+        row.map(|cell| cell.parse().unwrap()).nth(3).unwrap()
+    };
+    assert_eq!(bench.text("deviations.csv").lines().count(), 1 + 79);
+    let short = at_100_hz(&bench);
+    let study = bench.text("study.toml");
+    bench.write("study.toml", study.replace("[0.07, 0, 0]", "[0.09, 0, 0]"));
+    bench.done("respond study.toml --step 50 -o tool.csv");
+    assert!(at_100_hz(&bench) > 1.5 * short);
+}
+
 #[test]
 fn a_test_in_space_is_planned_and_answers_beforehand() {
     let bench = files_of("plan-in-space");

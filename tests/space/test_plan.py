@@ -274,7 +274,7 @@ def test_without_a_list_places_about_the_interfaces_are_proposed(run, tmp_path):
         ("[[a.sensors]]\nnode = 102", "[[b.sensors]]\nnode = 102", ["a", "rank 5", "rotation about the line"]),
         ("direction = [", "direction = [2.0, 0.0, 0.0] # [", ["a.impacts[0]", "unit"]),
         ("[[a.sensors]]\nnode = 100", "[[a.sensors]]\naxes = [[1,0,0],[0,1,0],[0,0,-1]]\nnode = 100", ["a.sensors[0]", "left-handed"]),
-        ("interface = 14", "interface = 99", ["a.interface", "six motions", "frf-decoupling"]),
+        ("interface = 14", "interface = 99", ["a.interface", "motions x, y, z, rx, ry, rz", "frf-decoupling"]),
         ("[joint]", '[candidates]\nsensors = [{ to = "d", node = 1, position = [0, 0, 0] }]\n[joint]', ["candidates.sensors[0].to", "a, b"]),
         ("[joint]", '[candidates]\nimpacts = [{ to = "a", dof = "9:+X", position = [0, 0, 0], direction = [1, 1, 0] }]\n[joint]', ["candidates.impacts[0]", "unit"]),
         ("[joint]", '[assembly]\nresponses = ["777:+X"]\n[joint]', ["assembly", "777:+X", "sensors"]),

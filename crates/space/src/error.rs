@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::Dof;
+use crate::{Dof, Motions};
 
 /// What keeps matrices, axes or receptances from being used.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -69,6 +69,15 @@ pub enum SpaceError {
         condition: &'static str,
         /// Its value.
         found: f64,
+    },
+    /// The numbers of bolts act on six motions.
+    #[error(
+        "the joint's model: found one of bolts, whose numbers act on six motions, for a test of {motions}; expected \"full\", \
+         \"blocks\", \"diagonal\" or \"translations\""
+    )]
+    OfSixMotions {
+        /// Those of the test.
+        motions: Motions,
     },
     /// A list or matrix has the wrong size.
     #[error("{what}: found {found}, expected {expected}")]

@@ -26,7 +26,8 @@ impl Loads {
         let mut free = problem.clone();
         for link in &mut free.links.0 {
             if let Numbers::Unknown(model) = &mut link.numbers {
-                *model = JointModel::Full.parametrisation().ok()?;
+                let full = JointModel::Full.parametrisation().ok()?;
+                *model = full.within(link.motions).ok()?;
             }
         }
         free.tolerances = None;
@@ -76,19 +77,21 @@ impl Loads {
         own: &OfLine,
         compliance: &DMatrix<Complex64>,
     ) -> Option<DMatrix<Complex64>> {
-        let scales = &self.scales;
-        let all = DMatrix::from_fn(scales.len(), scales.len(), |i, j| {
-            (own.seen[(i, j)] + compliance[(i, j)]) * scales[i] * scales[j]
+        let (scales, motions) = (&self.scales, &self.own);
+        let all = DMatrix::from_fn(motions.len(), motions.len(), |i, j| {
+            let at = (motions[i], motions[j]);
+            (own.seen[at] + compliance[at]) * scales[at.0] * scales[at.1]
         });
-        let mut right = own.by_loads.transpose();
-        for (mut row, &scale) in right.row_iter_mut().zip(scales) {
-            row *= Complex64::from(scale);
+        let mut right = own.by_loads.select_columns(motions).transpose();
+        for (mut row, &motion) in right.row_iter_mut().zip(motions) {
+            row *= Complex64::from(scales[motion]);
         }
-        let mut solved = all.transpose().lu().solve(&right)?;
-        for (mut row, &scale) in solved.row_iter_mut().zip(scales) {
-            row *= Complex64::from(scale);
+        let solved = all.transpose().lu().solve(&right)?;
+        let mut by_motions = DMatrix::zeros(own.by_loads.nrows(), scales.len());
+        for (row, &motion) in solved.row_iter().zip(motions) {
+            by_motions.set_column(motion, &(row.transpose() * Complex64::from(scales[motion])));
         }
-        Some(solved.transpose())
+        Some(by_motions)
     }
 }
 

@@ -87,8 +87,8 @@ pub enum SpatialError {
     NoNoise,
     /// A joint that is not said.
     #[error(
-        "{joint}.expected: found nothing, expected what the joint is taken to be: a joint file, or {{ stiffness, damping }} of 6 × 6 \
-         numbers"
+        "{joint}.expected: found nothing, expected what the joint is taken to be: a joint file, or {{ stiffness, damping }} with \
+         a row and a column for each motion"
     )]
     NotExpected {
         /// Its table in the study.

@@ -4,6 +4,7 @@ use bolted_joint_joint::{
     BudgetRecord, Correlation, DofSet, Format, FreeEstimate, GroupRecord, InputFile, Intervals,
     Joint, JointFile, Residual, StandardDeviation, Status, Uncertainty, Validity,
 };
+use bolted_joint_space::Motions;
 use bolted_joint_study::{Method, provenance};
 use nalgebra::{DMatrix, Matrix6};
 
@@ -15,6 +16,7 @@ use crate::problem::Level;
 /// What is told of one joint.
 struct Told<'t> {
     name: String,
+    motions: Motions,
     reasons_against: &'t [String],
     matrices: [&'t Matrix6<f64>; 2],
     free: Option<&'t [Matrix6<f64>; 2]>,
@@ -32,7 +34,7 @@ struct Told<'t> {
 
 impl Told<'_> {
     fn joint_file(self) -> JointFile {
-        let Numbered { dofs, rows } = Numbered::of(self.matrices[0]);
+        let Numbered { dofs, rows } = Numbered::of(self.matrices[0], self.motions);
         let part = |matrix: &Matrix6<f64>| lists(&rows, |i, j| matrix[(i, j)]);
         let interval = |n: usize| {
             let (matrix, deviation) = (self.matrices[n], &self.deviations[n]);
@@ -105,7 +107,8 @@ impl SpatialIdentification {
     /// The joint file: six degrees of freedom, or those on which the model has anything.
     #[must_use]
     pub fn joint_file(&self, study: &SpatialStudy) -> JointFile {
-        let rows = Numbered::of(&self.stiffness).rows;
+        let motions = study.motions;
+        let rows = Numbered::of(&self.stiffness, motions).rows;
         let part = |matrix: &Matrix6<f64>| lists(&rows, |i, j| matrix[(i, j)]);
         // part of each entry's variance
         let share = |own: &Matrix6<f64>, all: &Matrix6<f64>| {
@@ -133,6 +136,7 @@ impl SpatialIdentification {
         let level = words(study.level);
         Told {
             name: study.name.clone(),
+            motions,
             reasons_against: &self.reasons_against,
             matrices: [&self.stiffness, &self.damping],
             free: self.free.as_ref(),
@@ -175,6 +179,7 @@ impl FoundJoint {
         let level = words(study.level);
         Told {
             name: format!("{}, joint {}", study.name, self.number),
+            motions: study.motions,
             reasons_against: &found.reasons_against,
             matrices: [&self.stiffness, &self.damping],
             free: self.free.as_ref(),
@@ -219,8 +224,8 @@ struct Numbered {
 }
 
 impl Numbered {
-    fn of(stiffness: &Matrix6<f64>) -> Self {
-        let dofs = dofs(stiffness);
+    fn of(stiffness: &Matrix6<f64>, motions: Motions) -> Self {
+        let dofs = dofs(stiffness, motions);
         let rows = dofs.rows();
         let rows = rows.filter_map(|dof| DofSet::SPACE.position(dof.name));
         Self {
@@ -230,8 +235,12 @@ impl Numbered {
     }
 }
 
-/// All six, or the translations where no rotation has any stiffness.
-fn dofs(stiffness: &Matrix6<f64>) -> DofSet {
+/// All motions of the study, or of all six the translations where no rotation has any stiffness.
+fn dofs(stiffness: &Matrix6<f64>, motions: Motions) -> DofSet {
+    if !motions.are_all() {
+        let has = |name: &str| motions.dofs().any(|dof| dof.symbol() == name);
+        return DofSet::in_space(|dof| has(dof.name)).unwrap_or(DofSet::SPACE);
+    }
     let has_rotations = (3..6).any(|i| (0..6).any(|j| stiffness[(i, j)] != 0.0));
     let translations = ["x", "y", "z"];
     let of_translations = DofSet::in_space(|dof| translations.contains(&dof.name));

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use bolted_joint_space::{Entry, Parametrisation, Part, SpaceError};
+use bolted_joint_space::{Entry, Motions, Parametrisation, Part, SpaceError};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::identification::QUANTILE;
@@ -15,6 +15,8 @@ pub(crate) struct Link {
     pub(crate) key: String,
     /// About the size of its interface, m: scales rotations.
     pub(crate) length_m: f64,
+    /// The motions that it connects.
+    pub(crate) motions: Motions,
     pub(crate) numbers: Numbers,
 }
 
@@ -52,6 +54,16 @@ impl Links {
     pub(crate) fn scales(&self) -> Vec<f64> {
         let of = |link: &Link| [1.0, 1.0, 1.0, link.length_m, link.length_m, link.length_m];
         self.0.iter().flat_map(of).collect()
+    }
+
+    /// Those of the joints that are sought that the study is about, among all of these joints.
+    pub(crate) fn own_motions(&self) -> Vec<usize> {
+        let sought = self.sought().into_iter().enumerate();
+        let of = |(number, one): (usize, Sought<'_>)| {
+            let rows = one.link.motions.rows().into_iter();
+            rows.map(move |row| MOTIONS * number + row)
+        };
+        sought.flat_map(of).collect()
     }
 
     /// The size of the largest joint, m.

@@ -1,7 +1,7 @@
 //! A problem that tests share.
 
 use bolted_joint_frf::{Direction, Dof, Sign};
-use bolted_joint_space::{Axes, JointModel};
+use bolted_joint_space::{Axes, JointModel, Motions};
 use bolted_joint_virtual_point::{Impact, Sensor, SetUp, Tolerances};
 use nalgebra::{DMatrix, DVector, Vector3};
 use num_complex::Complex64;
@@ -65,6 +65,7 @@ fn sample(sides: [Side; 2], lengths_m: &[f64], [rows, columns]: [&[usize]; 2]) -
     let link = |(n, &length_m): (usize, &f64)| Link {
         key: format!("joint[{n}]"),
         length_m,
+        motions: Motions::ALL,
         numbers: Numbers::Unknown(JointModel::Full.parametrisation().unwrap()),
     };
     Problem {

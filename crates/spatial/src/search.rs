@@ -15,9 +15,12 @@ const AS_LOW: f64 = 1e-6;
 /// Standard deviations of χ² up to which chance explains it.
 const BY_CHANCE: f64 = 3.0;
 
+/// Cost, in parts of the count of numbers, below which nothing is left that another minimum could be lower by.
+pub(crate) const NOTHING: f64 = 1e-9;
+
 /// The lowest of the searches, how many starts were tried and how many came as low. The others are not tried after one that noise
-/// explains, where its level is stated, or, where it is not, after two that agree. Where noise does not explain the lowest, most
-/// of the starts have to lead there: it may be another minimum.
+/// explains, where its level is stated, or, where it is not, after two that agree or one that leaves nothing. Where noise does not
+/// explain the lowest, most of the starts have to lead there: it may be another minimum.
 pub(crate) fn searched(
     problem: &Problem,
     level: &Deviations,
@@ -40,7 +43,8 @@ pub(crate) fn searched(
             above if above >= -as_low => agreeing + 1,
             _ => 1,
         };
-        is_explained |= is_stated && fit.has_converged && fit.cost < explained;
+        let leaves_nothing = fit.cost < NOTHING * numbers;
+        is_explained |= fit.has_converged && (leaves_nothing || is_stated && fit.cost < explained);
         if fit.cost < lowest {
             best = Some(fit);
         }
@@ -49,9 +53,10 @@ pub(crate) fn searched(
         }
     }
     let mut best = best.ok_or(SpatialError::NoStart)?;
-    best.has_converged &= match is_stated {
-        true => is_explained || 2 * agreeing > tried,
-        false => agreeing > 1,
-    };
+    best.has_converged &= is_explained
+        || match is_stated {
+            true => 2 * agreeing > tried,
+            false => agreeing > 1,
+        };
     Ok((best, [tried, agreeing]))
 }

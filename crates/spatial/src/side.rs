@@ -4,6 +4,7 @@
 //! one belongs to side a, and the others to side b.
 
 use bolted_joint_frf::Dof;
+use bolted_joint_space::Motions;
 use bolted_joint_virtual_point::{
     Parameter, Role, SetUp, Tolerances, VirtualPoint, VirtualPointError, Weights,
 };
@@ -39,8 +40,8 @@ pub(crate) struct Placed {
 /// How the interface is seen.
 #[derive(Clone, Debug)]
 pub(crate) enum Interface {
-    /// The first six responses are its motions, the first six references its loads.
-    Node,
+    /// Its first responses are these motions, its first references their loads.
+    Node(Motions),
     /// By sensors and impacts near it.
     Points(SetUp),
 }
@@ -49,7 +50,7 @@ impl Interface {
     /// With errors of the set-up.
     pub(crate) fn displaced(&self, errors: &[f64]) -> Result<Self, VirtualPointError> {
         Ok(match self {
-            Self::Node => Self::Node,
+            Self::Node(motions) => Self::Node(*motions),
             Self::Points(set_up) => Self::Points(set_up.displaced(errors)?),
         })
     }
@@ -59,7 +60,7 @@ impl Placed {
     /// What may be wrong with the channels, or with the impacts.
     pub(crate) fn parameters(&self, role: Role) -> Vec<Parameter> {
         match &self.interface {
-            Interface::Node => Vec::new(),
+            Interface::Node(_) => Vec::new(),
             Interface::Points(set_up) => set_up.places(role).parameters(),
         }
     }
@@ -79,14 +80,16 @@ pub(crate) struct Transformations {
 /// virtual point and what is measured elsewhere; and how h is found, h = T_u Y T_f.
 #[derive(Clone, Debug)]
 pub(crate) struct Reduction {
-    /// R_u, responses × (6 + others).
+    /// R_u, responses × (motions + others).
     pub(crate) rows: DMatrix<Complex64>,
-    /// R_f, references × (6 + others).
+    /// R_f, references × (motions + others).
     pub(crate) columns: DMatrix<Complex64>,
-    /// T_u, (6 + others) × responses.
+    /// T_u, (motions + others) × responses.
     pub(crate) motions: DMatrix<Complex64>,
-    /// T_f, references × (6 + others).
+    /// T_f, references × (motions + others).
     pub(crate) loads: DMatrix<Complex64>,
+    /// The motions that the interface has.
+    pub(crate) own: Motions,
 }
 
 impl Reduction {
@@ -112,6 +115,15 @@ impl Side {
         MOTIONS * self.interfaces.len()
     }
 
+    /// What a side with one interface has there.
+    pub(crate) fn motions_of_one(&self) -> Motions {
+        let first = self.interfaces.first().map(|placed| &placed.interface);
+        first.map_or(Motions::ALL, |own| match own {
+            Interface::Node(motions) => *motions,
+            Interface::Points(set_up) => set_up.motions(),
+        })
+    }
+
     /// The interface with its sensors and impacts, of a side with one interface that has any.
     pub(crate) fn points(&self) -> Option<(&Placed, &SetUp)> {
         self.interfaces.first().and_then(Placed::points)
@@ -127,6 +139,7 @@ impl Side {
                 columns: unit(q),
                 motions: unit(p),
                 loads: unit(q),
+                own: self.motions_of_one(),
             });
         };
         let point = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal)
@@ -142,14 +155,20 @@ impl Side {
                 })
             })
         };
-        let (r_u, r_f) = (set_up.channels().matrix(), set_up.impacts().matrix());
+        let own = set_up.motions();
+        let motions = own.rows();
+        let [r_u, r_f] = [Role::Channel, Role::Impact]
+            .map(|role| set_up.places(role).matrix().select_columns(&motions));
         let [wide, tall] =
-            [(p, r_u.nrows()), (q, r_f.nrows())].map(|(all, own)| MOTIONS + all - own);
+            [(p, r_u.nrows()), (q, r_f.nrows())].map(|(all, own)| motions.len() + all - own);
+        let t_u = point.motions_of_channels().select_rows(&motions);
+        let t_f = point.forces_of_loads().select_columns(&motions);
         Ok(Reduction {
-            rows: beside(r_u, p, wide),
-            columns: beside(r_f, q, tall),
-            motions: beside(point.motions_of_channels(), wide, p),
-            loads: beside(&point.forces_of_loads(), q, tall),
+            rows: beside(&r_u, p, wide),
+            columns: beside(&r_f, q, tall),
+            motions: beside(&t_u, wide, p),
+            loads: beside(&t_f, q, tall),
+            own,
         })
     }
 
@@ -225,11 +244,14 @@ impl Side {
                 place.copy_from(&own.map(Complex64::from));
                 wide
             };
-            let Interface::Points(set_up) = &placed.interface else {
-                let own = DMatrix::identity(MOTIONS, MOTIONS);
-                all.motions += by_rows(&own);
-                all.loads += by_columns(&own);
-                continue;
+            let set_up = match &placed.interface {
+                Interface::Points(set_up) => set_up,
+                Interface::Node(own) => {
+                    let own = DMatrix::identity(MOTIONS, MOTIONS).select_columns(&own.rows());
+                    all.motions += by_rows(&own);
+                    all.loads += by_columns(&own);
+                    continue;
+                }
             };
             let displaced = set_up.displaced(errors);
             let point = displaced
@@ -259,7 +281,7 @@ impl Placed {
     /// With its sensors and impacts, unless it is a node.
     pub(crate) fn points(&self) -> Option<(&Self, &SetUp)> {
         match &self.interface {
-            Interface::Node => None,
+            Interface::Node(_) => None,
             Interface::Points(set_up) => Some((self, set_up)),
         }
     }

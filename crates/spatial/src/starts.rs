@@ -85,7 +85,11 @@ pub(crate) fn starts(
             let stiffness = Matrix6::from_diagonal(&Vector6::from_fn(|dof, _| {
                 let i = MOTIONS * joint + dof;
                 let sizes = open.iter().map(|open| open.seen[(i, i)].norm());
-                part / median(sizes.collect())
+                match median(sizes.collect()) {
+                    // no motion of the study
+                    0.0 => 0.0,
+                    size => part / size,
+                }
             }));
             [stiffness, stiffness * (LOSS / middle)]
         };
@@ -127,6 +131,8 @@ pub(crate) struct Loads {
     usable: Vec<usize>,
     /// What scales each motion: rotations as lengths.
     pub(crate) scales: Vec<f64>,
+    /// The motions that the study is about.
+    pub(crate) own: Vec<usize>,
     patterns: Patterns,
 }
 
@@ -161,13 +167,15 @@ impl Loads {
             let scales: Vec<f64> = (sought.iter())
                 .flat_map(|joint| scales[joint.motions()].to_vec())
                 .collect();
+            let own = problem.links.own_motions();
+            let own_scales: Vec<f64> = own.iter().map(|&motion| scales[motion]).collect();
             let rows_of = |column: usize| -> Vec<usize> {
                 let own = weights.column(column);
                 (0..own.len()).filter(|&row| own[row] > 0.0).collect()
             };
             let rows: Vec<Vec<usize>> = (0..weights.ncols()).map(rows_of).collect();
             let usable: Vec<usize> = (0..rows.len())
-                .filter(|&n| rows[n].len() >= scales.len())
+                .filter(|&n| rows[n].len() >= own.len())
                 .collect();
             let mut lines = Vec::new();
             for (line, open) in open.iter().enumerate() {
@@ -182,11 +190,15 @@ impl Loads {
                 let change = turned(&change);
                 let mut loads = DMatrix::zeros(scales.len(), motions.ncols());
                 for &column in &usable {
-                    let own = &rows[column];
-                    let weights: Vec<f64> = own.iter().map(|&row| weights[(row, column)]).collect();
-                    let inverse = pseudo_inverse(&by_loads.select_rows(own), &weights, &scales)?;
-                    let right = DVector::from_fn(own.len(), |n, _| change[(own[n], column)]);
-                    loads.column_mut(column).copy_from(&(inverse * right));
+                    let rows = &rows[column];
+                    let weights: Vec<f64> =
+                        rows.iter().map(|&row| weights[(row, column)]).collect();
+                    let part = by_loads.select_rows(rows).select_columns(&own);
+                    let inverse = pseudo_inverse(&part, &weights, &own_scales)?;
+                    let right = DVector::from_fn(rows.len(), |n, _| change[(rows[n], column)]);
+                    for (load, &motion) in (inverse * right).iter().zip(&own) {
+                        loads[(motion, column)] = *load;
+                    }
                 }
                 let seen = turned(&open.seen);
                 lines.push(OfLine {
@@ -199,11 +211,12 @@ impl Loads {
             for column in (0..rows.len()).filter(|column| !usable.contains(column)) {
                 weights.column_mut(column).fill(0.0);
             }
-            (usable.len() >= scales.len()).then(|| Self {
+            (usable.len() >= own.len()).then(|| Self {
                 lines,
                 weights,
                 usable,
                 scales,
+                own,
                 patterns: Patterns::of(problem, None),
             })
         })
@@ -213,20 +226,33 @@ impl Loads {
     /// not determine X.
     fn line_by_line(&self, problem: &Problem) -> Option<Vec<[Matrix6<f64>; 2]>> {
         let mut found: Vec<[DMatrix<f64>; 2]> = Vec::new();
+        let (motions, all) = (&self.own, self.scales.len());
+        let scales: Vec<f64> = motions.iter().map(|&motion| self.scales[motion]).collect();
         for (line, own) in self.lines.iter().enumerate() {
-            let open = (&own.motions + &own.seen * &own.loads).select_columns(&self.usable);
-            let loads = own.loads.select_columns(&self.usable);
+            let of_usable = |matrix: &DMatrix<Complex64>| {
+                matrix.select_columns(&self.usable).select_rows(motions)
+            };
+            let open = of_usable(&(&own.motions + &own.seen * &own.loads));
+            let loads = of_usable(&own.loads);
+            let seen = own.seen.select_rows(motions).select_columns(motions);
             // X (S Y) = f, column by column
             let weights: Vec<f64> = (self.usable.iter())
                 .map(|&column| self.weights.column(column).mean())
                 .collect();
-            let inverse = pseudo_inverse(&open.transpose(), &weights, &self.scales)?;
+            let inverse = pseudo_inverse(&open.transpose(), &weights, &scales)?;
             let x = loads * inverse.transpose();
             let unit = DMatrix::identity(x.nrows(), x.nrows());
-            let d = &x * (unit - &own.seen * &x).try_inverse()?;
+            let d = &x * (unit - &seen * &x).try_inverse()?;
             let d = (&d + d.transpose()) * Complex64::from(0.5);
             let omega = problem.omega(line);
-            found.push([d.map(|x| x.re), d.map(|x| x.im / omega)]);
+            let mut parts = [(); 2].map(|()| DMatrix::zeros(all, all));
+            for (i, &row) in motions.iter().enumerate() {
+                for (j, &column) in motions.iter().enumerate() {
+                    parts[0][(row, column)] = d[(i, j)].re;
+                    parts[1][(row, column)] = d[(i, j)].im / omega;
+                }
+            }
+            found.push(parts);
         }
         let of = |joint: usize, part: usize| {
             Matrix6::from_fn(|i, j| {

@@ -5,7 +5,7 @@ use std::str::FromStr as _;
 
 use bolted_joint_frf::{Direction, Dof, FrfReading, FrfSet, ReadOptions, Sign, read_frfs};
 use bolted_joint_joint::InputFile;
-use bolted_joint_space::{Axes, JointModel, Mirrors, Parametrisation};
+use bolted_joint_space::{Axes, Dof as Motion, JointModel, Mirrors, Motions, Parametrisation};
 use bolted_joint_study::{LineChoice, Paths, StudyError, StudyText, schema};
 use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
 use nalgebra::{Matrix3, Vector3};
@@ -39,6 +39,8 @@ pub struct SpatialStudy {
     /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
     pub noise: [f64; 2],
     pub(crate) problem: Problem,
+    /// What the interfaces have.
+    pub(crate) motions: Motions,
 }
 
 /// Directions along an axis or about it, in the order of an interface's motions.
@@ -64,8 +66,11 @@ impl SpatialStudy {
     /// [`StudyError`] that names the file and the key or line.
     pub fn of(study: &StudyText) -> Result<Self, StudyError> {
         let file: StudyFile = study.tables()?;
-        let reader = Reader { study };
         let chain = ChainStudy::of(study, None)?;
+        let reader = Reader {
+            study,
+            motions: chain.motions,
+        };
         let Some(assembly) = &chain.assembly else {
             return study.refuse(
                 "assembly.frf",
@@ -77,6 +82,7 @@ impl SpatialStudy {
         let observed = reader.observed(&sides, Some(assembly))?;
         let frequency_hz = chain.problem.frequency_hz.clone();
         Ok(Self {
+            motions: chain.motions,
             path: study.path().to_owned(),
             name: file.name,
             model: chain.models[0].clone(),
@@ -94,6 +100,21 @@ impl SpatialStudy {
         })
     }
 
+    /// The motions that the interfaces have.
+    #[must_use]
+    pub fn motions(&self) -> Motions {
+        self.motions
+    }
+
+    /// Where the joint moves, in words: in space, or in the motions of a plane.
+    #[must_use]
+    pub fn whereabouts(&self) -> String {
+        match self.motions.are_all() {
+            true => "in space".to_owned(),
+            false => format!("in {}", self.motions),
+        }
+    }
+
     /// Functions of the assembly that are compared.
     #[must_use]
     pub fn functions(&self) -> usize {
@@ -103,6 +124,25 @@ impl SpatialStudy {
 
 pub(crate) struct Reader<'s> {
     pub(crate) study: &'s StudyText,
+    /// What the interfaces have.
+    pub(crate) motions: Motions,
+}
+
+/// The motions that a study is about.
+pub(crate) fn motions(study: &StudyText, list: Option<&[String]>) -> Result<Motions, StudyError> {
+    let Some(list) = list else {
+        return Ok(Motions::ALL);
+    };
+    let of = |(place, name): (usize, &String)| {
+        let known = Motion::ALL.into_iter().find(|dof| dof.symbol() == name);
+        study.needed(
+            format_args!("motions[{place}]"),
+            known,
+            format_args!("one of x, y, z, rx, ry, rz instead of {name:?}"),
+        )
+    };
+    let dofs: Vec<Motion> = list.iter().enumerate().map(of).collect::<Result<_, _>>()?;
+    Motions::of(&dofs).map_err(|source| StudyError::model(study.path(), Some("motions"), source))
 }
 
 impl Reader<'_> {
@@ -339,8 +379,12 @@ impl Reader<'_> {
             ModelName::Blocks => JointModel::Blocks,
             ModelName::Full => JointModel::Full,
         };
-        model
-            .parametrisation()
+        let parametrisation = model.parametrisation();
+        parametrisation
+            .and_then(|all| match self.motions.are_all() {
+                true => Ok(all),
+                false => all.within(self.motions),
+            })
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
     }
 

@@ -15,6 +15,8 @@ pub(crate) struct StudyFile {
     pub(crate) name: String,
     #[serde(default)]
     pub(crate) notes: Vec<String>,
+    /// Which motions the interfaces have; all six if left out.
+    pub(crate) motions: Option<Vec<String>>,
     pub(crate) a: PartTable,
     pub(crate) b: PartTable,
     /// Further parts of a chain.
@@ -212,7 +214,7 @@ pub(crate) struct JointTable {
 /// A joint file, or matrices.
 pub(crate) enum ExpectedTable {
     File(PathBuf),
-    Matrices(Box<MatricesTable>),
+    Matrices(MatricesTable),
 }
 
 /// By hand, as [`BudgetTable`], so that a wrong key of the table is named.
@@ -223,9 +225,7 @@ impl<'de> Deserialize<'de> for ExpectedTable {
             type Value = ExpectedTable;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(
-                    "the path of a joint file, or a table with stiffness and damping (6 × 6)",
-                )
+                f.write_str("the path of a joint file, or a table with stiffness and damping")
             }
 
             fn visit_str<E: de::Error>(self, path: &str) -> Result<ExpectedTable, E> {
@@ -234,18 +234,19 @@ impl<'de> Deserialize<'de> for ExpectedTable {
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ExpectedTable, A::Error> {
                 let table = MatricesTable::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(ExpectedTable::Matrices(Box::new(table)))
+                Ok(ExpectedTable::Matrices(table))
             }
         }
         deserializer.deserialize_any(ExpectedVisitor)
     }
 }
 
-#[derive(Clone, Copy, Deserialize)]
+/// A row and a column for each motion of the study, or for all six.
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MatricesTable {
-    pub(crate) stiffness: [[f64; 6]; 6],
-    pub(crate) damping: [[f64; 6]; 6],
+    pub(crate) stiffness: Vec<Vec<f64>>,
+    pub(crate) damping: Vec<Vec<f64>>,
 }
 
 #[derive(Clone, Copy, Deserialize)]

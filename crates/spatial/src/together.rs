@@ -8,6 +8,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
+use crate::search::NOTHING;
 use crate::starts::starts;
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
@@ -33,7 +34,8 @@ const EXPECTED: f64 = 1.3;
 const AS_LOW: f64 = 1e-3;
 
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many starts were tried and how many came to the same
-/// minimum. None is tried after one that noise explains, where its level is stated, or after two that agree.
+/// minimum. None is tried after one that noise explains, where its level is stated, after one that leaves nothing, or after two that
+/// agree.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
@@ -46,9 +48,11 @@ pub(crate) fn together(
     starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let explained = |fit: &Fit| {
         let errors = squares_of_errors(&thin, &fit.unknowns);
-        is_stated
-            && fit.cost < EXPLAINED * thin.numbers() as f64
-            && errors < EXPECTED * problem.error_count() as f64
+        let numbers = thin.numbers() as f64;
+        fit.cost < NOTHING * numbers
+            || is_stated
+                && fit.cost < EXPLAINED * numbers
+                && errors < EXPECTED * problem.error_count() as f64
     };
     let mut best: Option<Fit> = None;
     let (mut tried, mut agreeing) = (0, 0);

@@ -131,8 +131,12 @@ struct Fitted {
 
 impl Search<'_> {
     fn told(&self, places: &Places) -> Option<Told> {
-        let projection =
-            Projection::new(places.matrix().clone(), self.weights.clone(), self.length_m)?;
+        let projection = Projection::new(
+            places.matrix().clone(),
+            self.weights.clone(),
+            self.length_m,
+            places.motions(),
+        )?;
         let rest = projection.rest();
         let parameters = places.parameters();
         // (I − R T) dR_k T
@@ -163,7 +167,8 @@ impl Search<'_> {
             }
         }
         let rows = projection.rows().nrows() as f64;
-        let degrees = (self.numbers * (1.0 - 6.0 / rows) - rank).max(1.0);
+        let degrees =
+            (self.numbers * (1.0 - places.motions().count() as f64 / rows) - rank).max(1.0);
         // the squares of each line are 1
         let least = LEAST_NOISE.powi(2) * self.spread.lines() / self.numbers;
         Some(Told {

@@ -1,7 +1,8 @@
-//! How well the places tell six motions apart, in a number that does not depend on units.
+//! How well the places tell six motions, or those of a plane, apart, in a number that does not depend on units.
 
 use std::fmt;
 
+use bolted_joint_space::Motions;
 use nalgebra::{DMatrix, Vector6};
 
 use crate::unseen::{UnseenMotion, plain};
@@ -11,8 +12,8 @@ use crate::{Places, Role, VirtualPointError};
 /// Above this, errors of positions and noise grow much in the motion that is seen least.
 const POOR: f64 = 10.0;
 
-/// Fewer channels or impacts than this leave little to judge them by.
-const FEW: usize = 9;
+/// Fewer channels or impacts than so many beyond the motions leave little to judge them by.
+const FEW: usize = 3;
 
 /// Singular values below this share of the largest one are none: no position is known to a part in a million.
 const NOTHING: f64 = 1e-6;
@@ -24,6 +25,8 @@ pub struct Conditioning {
     pub role: Role,
     /// How many there are.
     pub count: usize,
+    /// How many motions they tell apart.
+    pub motions: usize,
     /// ℓ: root mean square of the distances from the virtual point, m.
     pub length_m: f64,
     /// Largest over smallest singular value.
@@ -50,6 +53,8 @@ pub enum Advice {
         role: Role,
         /// How many there are.
         count: usize,
+        /// How many motions they tell apart.
+        motions: usize,
     },
 }
 
@@ -66,9 +71,15 @@ impl fmt::Display for Advice {
                  {least_seen}; spread them, or add one that moves with it",
                 short(*condition)
             ),
-            Self::Few { role, count } => write!(
+            Self::Few {
+                role,
+                count,
+                motions,
+            } => write!(
                 f,
-                "{role}s: found {count}, 9 to 12 are better: the more there are beyond 6, the more errors show"
+                "{role}s: found {count}, {} to {} are better: the more there are beyond {motions}, the more errors show",
+                motions + FEW,
+                motions + 2 * FEW
             ),
         }
     }
@@ -79,19 +90,22 @@ impl Conditioning {
     ///
     /// # Errors
     ///
-    /// [`VirtualPointError::TooFew`] for fewer than six, [`VirtualPointError::Unseen`] if they leave a motion open.
+    /// [`VirtualPointError::TooFew`] for fewer than motions, [`VirtualPointError::Unseen`] if they leave a motion open.
     pub fn of(places: &Places) -> Result<Self, VirtualPointError> {
         let (role, count) = (places.role(), places.count());
-        if count < 6 {
-            let (found, least) = (count, 6);
+        let own = places.motions().count();
+        if count < own {
+            let (found, least) = (count, own);
             return Err(VirtualPointError::TooFew { role, found, least });
         }
         let length_m = places.length_m();
-        let (values, motions) = spectrum(places.matrix(), length_m);
+        let (values, motions) = spectrum(places.matrix(), length_m, places.motions());
         let largest = values.max();
-        let open: Vec<usize> = (0..6).filter(|&i| values[i] <= NOTHING * largest).collect();
+        let open: Vec<usize> = (0..own)
+            .filter(|&i| values[i] <= NOTHING * largest)
+            .collect();
         if !open.is_empty() {
-            let rank = 6 - open.len();
+            let rank = own - open.len();
             let basis = DMatrix::from_fn(open.len(), 6, |i, j| motions[(open[i], j)]);
             let motions = plain(&basis, length_m);
             return Err(VirtualPointError::Unseen {
@@ -105,6 +119,7 @@ impl Conditioning {
         Ok(Self {
             role,
             count,
+            motions: own,
             length_m,
             condition: largest / values[least],
             least_seen: UnseenMotion::of(&motion, length_m),
@@ -124,31 +139,47 @@ impl Conditioning {
                 least_seen,
             });
         }
-        if count < FEW {
-            advice.push(Advice::Few { role, count });
+        if count < self.motions + FEW {
+            let motions = self.motions;
+            advice.push(Advice::Few {
+                role,
+                count,
+                motions,
+            });
         }
         advice
     }
 }
 
-/// Whether rows determine six motions.
-pub(crate) fn is_complete(matrix: &DMatrix<f64>, length_m: f64) -> bool {
-    matrix.nrows() >= 6 && {
-        let (values, _) = spectrum(matrix, length_m);
+/// Whether rows determine these motions.
+pub(crate) fn is_complete(matrix: &DMatrix<f64>, length_m: f64, motions: Motions) -> bool {
+    matrix.nrows() >= motions.count() && {
+        let (values, _) = spectrum(matrix, length_m, motions);
         values.min() > NOTHING * values.max()
     }
 }
 
 /// Singular values of R s, and the motion (u, θ) of each as a row.
-fn spectrum(matrix: &DMatrix<f64>, length_m: f64) -> (nalgebra::DVector<f64>, DMatrix<f64>) {
+fn spectrum(
+    matrix: &DMatrix<f64>,
+    length_m: f64,
+    motions: Motions,
+) -> (nalgebra::DVector<f64>, DMatrix<f64>) {
+    let own = motions.rows();
+    let count = own.len();
     let scale = |j: usize| if j < 3 { 1.0 } else { 1.0 / length_m };
-    let scaled = DMatrix::from_fn(matrix.nrows(), 6, |i, j| matrix[(i, j)] * scale(j));
-    // six by six, so that the decomposition has all six motions; R s = Q (upper triangle)
+    let scaled = DMatrix::from_fn(matrix.nrows(), count, |i, j| {
+        matrix[(i, own[j])] * scale(own[j])
+    });
+    // square, so that the decomposition has all motions; R s = Q (upper triangle)
     let triangle = scaled.qr().r();
     let eigen = nalgebra::SVD::new(triangle, false, true);
-    let rows = eigen.v_t.unwrap_or_else(|| DMatrix::identity(6, 6));
-    let motions = DMatrix::from_fn(6, 6, |i, j| rows[(i, j)] * scale(j));
-    (eigen.singular_values, motions)
+    let rows = eigen.v_t.unwrap_or_else(|| DMatrix::identity(count, count));
+    let mut shapes = DMatrix::zeros(count, 6);
+    for (at, &j) in own.iter().enumerate() {
+        shapes.set_column(j, &(rows.column(at) * scale(j)));
+    }
+    (eigen.singular_values, shapes)
 }
 
 #[cfg(test)]
@@ -305,7 +336,8 @@ mod tests {
             few,
             [Advice::Few {
                 role: Role::Impact,
-                count: 7
+                count: 7,
+                motions: 6
             }]
         );
         has(

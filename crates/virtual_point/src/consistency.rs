@@ -39,7 +39,7 @@ impl VirtualPoint {
             return Err(VirtualPointError::Nothing { what });
         }
         let count = self.count(role);
-        if count == 6 {
+        if count == self.motion_count() {
             return Ok(None);
         }
         let rigid = self.projection(role).rigid().map(Complex64::from);

@@ -58,8 +58,8 @@ pub enum VirtualPointError {
         /// What there is none of.
         what: &'static str,
     },
-    /// Six motions or loads need six places.
-    #[error("{role}s: found {found}, expected {least} or more: add some, 9 to 12 are good")]
+    /// Motions or loads need as many places.
+    #[error("{role}s: found {found}, expected {least} or more: add some, {} to {} are good", least + 3, least + 6)]
     TooFew {
         /// Channels or impacts.
         role: Role,
@@ -68,8 +68,8 @@ pub enum VirtualPointError {
         /// How many are needed.
         least: usize,
     },
-    /// The places do not determine all six motions or loads.
-    #[error("{role}s: found rank {rank}, expected 6: {}", listed(*role, motions))]
+    /// The places do not determine all motions or loads.
+    #[error("{role}s: found rank {rank}, expected {}: {}", rank + motions.len(), listed(*role, motions))]
     Unseen {
         /// Channels or impacts.
         role: Role,

@@ -86,7 +86,7 @@ impl VirtualPoint {
             return Err(VirtualPointError::Nothing { what });
         }
         let (channels, impacts) = (self.count(Role::Channel), self.count(Role::Impact));
-        if self.count(role) == 6 {
+        if self.count(role) == self.motion_count() {
             return Ok(None);
         }
         let rest = self.projection(role).rest();

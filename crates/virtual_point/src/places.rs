@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use bolted_joint_space::Dof;
+use bolted_joint_space::{Dof, Motions};
 use nalgebra::DMatrix;
 
 use crate::place::Body;
@@ -24,6 +24,7 @@ pub struct Places {
     role: Role,
     bodies: Vec<Body>,
     first_rows: Vec<usize>,
+    motions: Motions,
     matrix: DMatrix<f64>,
 }
 
@@ -37,6 +38,7 @@ impl Places {
         Self::new(
             Role::Channel,
             sensors.iter().map(|sensor| sensor.0.clone()).collect(),
+            Motions::ALL,
         )
     }
 
@@ -49,16 +51,18 @@ impl Places {
         Self::new(
             Role::Impact,
             impacts.iter().map(|impact| impact.0.clone()).collect(),
+            Motions::ALL,
         )
     }
 
-    fn new(role: Role, bodies: Vec<Body>) -> Result<Self, VirtualPointError> {
+    fn new(role: Role, bodies: Vec<Body>, motions: Motions) -> Result<Self, VirtualPointError> {
         let rows: Vec<_> = bodies.iter().flat_map(Body::rows).collect();
-        let (found, least) = (rows.len(), 1);
-        if found < least {
+        let found = rows.len();
+        if found == 0 {
+            let least = motions.count();
             return Err(VirtualPointError::TooFew { role, found, least });
         }
-        let matrix = DMatrix::from_fn(found, 6, |i, j| rows[i][j]);
+        let matrix = of_motions(motions, DMatrix::from_fn(found, 6, |i, j| rows[i][j]));
         let mut next = 0;
         let first_rows = bodies.iter().map(|body| {
             let first = next;
@@ -70,8 +74,26 @@ impl Places {
             role,
             bodies,
             first_rows,
+            motions,
             matrix,
         })
+    }
+
+    /// The same where the virtual point has these motions alone: R is zero for the others.
+    #[must_use]
+    pub fn in_motions(self, motions: Motions) -> Self {
+        let matrix = of_motions(motions, self.matrix);
+        Self {
+            motions,
+            matrix,
+            ..self
+        }
+    }
+
+    /// The motions that the virtual point has.
+    #[must_use]
+    pub fn motions(&self) -> Motions {
+        self.motions
     }
 
     /// Channels or impacts.
@@ -124,7 +146,7 @@ impl Places {
                 for (offset, row) in body.derivatives(change).enumerate() {
                     derivative.row_mut(first + offset).copy_from(&row);
                 }
-                derivative
+                of_motions(self.motions, derivative)
             })
         })
         .collect()
@@ -146,7 +168,7 @@ impl Places {
                     derivative.row_mut(at).copy_from(&all[row - first]);
                 }
             }
-            derivative
+            of_motions(self.motions, derivative)
         })
     }
 
@@ -185,7 +207,7 @@ impl Places {
             }
             bodies.push(changed);
         }
-        Self::new(self.role, bodies)
+        Self::new(self.role, bodies, self.motions)
     }
 
     /// Root mean square of the distances from the virtual point, one for each row, m; 1 if all are there.
@@ -205,4 +227,12 @@ impl Places {
             Role::Impact => Place::Impact(number),
         }
     }
+}
+
+/// With zeros in the columns of other motions.
+fn of_motions(motions: Motions, mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    for dof in Dof::ALL.into_iter().filter(|&dof| !motions.has(dof)) {
+        matrix.column_mut(dof.index()).fill(0.0);
+    }
+    matrix
 }

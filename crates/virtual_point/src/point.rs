@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use crate::projection::Projection;
 use crate::{Conditioning, Role, SetUp, VirtualPointError, Weights};
 
-/// A virtual point: six motions found in the channels, six loads made of the impacts.
+/// A virtual point: six motions found in the channels, six loads made of the impacts; or those of a plane, and zero for the others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VirtualPoint {
     set_up: SetUp,
@@ -21,7 +21,7 @@ impl VirtualPoint {
     ///
     /// # Errors
     ///
-    /// [`VirtualPointError::TooFew`] for fewer than six channels or impacts, [`VirtualPointError::Unseen`] if they
+    /// [`VirtualPointError::TooFew`] for fewer channels or impacts than motions, [`VirtualPointError::Unseen`] if they
     /// leave a motion or load open, and what is wrong with the weights: [`VirtualPointError::Size`],
     /// [`VirtualPointError::NotSymmetric`], [`VirtualPointError::NotPositive`], [`VirtualPointError::NotFinite`].
     pub fn new(
@@ -44,6 +44,11 @@ impl VirtualPoint {
     #[must_use]
     pub fn set_up(&self) -> &SetUp {
         &self.set_up
+    }
+
+    /// How many motions it has.
+    pub(crate) fn motion_count(&self) -> usize {
+        self.set_up.motions().count()
     }
 
     /// How well the channels tell motions apart, or the impacts loads.
@@ -198,7 +203,12 @@ fn projected(
     let places = set_up.places(role);
     let weights = weights.matrix(role, places.count())?;
     let conditioning = Conditioning::of(places)?;
-    let projection = Projection::new(places.matrix().clone(), weights, conditioning.length_m);
+    let projection = Projection::new(
+        places.matrix().clone(),
+        weights,
+        conditioning.length_m,
+        places.motions(),
+    );
     let what = "rows and weights, of which the inverse is too large";
     let projection = projection.ok_or(VirtualPointError::NotFinite { what })?;
     Ok((conditioning, projection))

@@ -1,5 +1,6 @@
 //! Sensors and impacts together: which functions the receptance of the interface would give.
 
+use bolted_joint_space::Motions;
 use nalgebra::{DMatrix, Matrix6};
 use num_complex::Complex64;
 
@@ -22,6 +23,21 @@ impl SetUp {
     pub fn new(sensors: &[Sensor], impacts: &[Impact]) -> Result<Self, VirtualPointError> {
         let (channels, impacts) = (Places::sensors(sensors)?, Places::impacts(impacts)?);
         Ok(Self { channels, impacts })
+    }
+
+    /// The same where the virtual point has these motions alone, as in a test in a plane.
+    #[must_use]
+    pub fn in_motions(self, motions: Motions) -> Self {
+        Self {
+            channels: self.channels.in_motions(motions),
+            impacts: self.impacts.in_motions(motions),
+        }
+    }
+
+    /// The motions that the virtual point has.
+    #[must_use]
+    pub fn motions(&self) -> Motions {
+        self.channels.motions()
     }
 
     /// Channels, with R_u.

@@ -15,6 +15,8 @@ const ROUNDING: f64 = 1e-13;
 /// From this ratio on a place is bad: with noise alone it is near to 1, and above 5 in less than one case of a hundred
 /// thousand for 7 functions at 3 lines that leave one degree of freedom (F distribution, 42 and 42).
 const BAD: f64 = 5.0;
+/// Channels or impacts beyond the motions that it takes to name one.
+const BEYOND: usize = 2;
 
 /// Another place that is suspected by more than this share of the first leaves it open which one it is.
 const BESIDE: f64 = 0.5;
@@ -99,7 +101,7 @@ impl VirtualPoint {
         let count = self.count(role);
         let projection = self.projection(role);
         let spread = self.spread(role, lines)?;
-        if count < 8 || spread.lines == 0.0 {
+        if count < self.motion_count() + BEYOND || spread.lines == 0.0 {
             return Ok(None);
         }
         let all: Vec<usize> = (0..count).collect();
@@ -110,7 +112,10 @@ impl VirtualPoint {
                 continue;
             };
             let left = spread.misfit(&remaining, &kept);
-            let (k, degrees) = (dropped.len() as f64, (kept.len() - 6) as f64);
+            let (k, degrees) = (
+                dropped.len() as f64,
+                (kept.len() - self.motion_count()) as f64,
+            );
             let (goes, stays) = ((misfit - left).max(0.0), left.max(ROUNDING));
             let ratio = (goes / k) / (stays / degrees);
             let bodies = self.set_up().places(role);
@@ -175,14 +180,15 @@ impl VirtualPoint {
             .collect();
         let length_m = self.conditioning(role).length_m;
         let rows = projection.rows().select_rows(&kept);
-        if kept.len() <= 6 || !is_complete(&rows, length_m) {
+        let motions = projection.motions();
+        if kept.len() <= motions.count() || !is_complete(&rows, length_m, motions) {
             return None;
         }
         let covariance = projection.weights().clone().cholesky()?.inverse();
         let of_kept = covariance.select_rows(&kept).select_columns(&kept);
         let weights = of_kept.cholesky()?.inverse();
         let symmetric = (&weights + weights.transpose()) * 0.5;
-        Some((Projection::new(rows, symmetric, length_m)?, kept))
+        Some((Projection::new(rows, symmetric, length_m, motions)?, kept))
     }
 }
 

@@ -1,11 +1,12 @@
 //! The whole against check values of a NumPy program, against another program, and against exact cases.
 
+use bolted_joint_space::{Dof, Motions};
 use bolted_joint_testing::{close, near};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 use num_complex::Complex64;
 
 use crate::samples::*;
-use crate::{Noise, Role, SetUp, VirtualPoint, Weights};
+use crate::{Impact, Noise, Role, Sensor, SetUp, VirtualPoint, Weights};
 
 /// Numbers of a NumPy program with the same definitions: three triaxial sensors, seven impacts, a row 10 % too large.
 #[test]
@@ -191,4 +192,90 @@ fn a_rigid_interface_gives_back_its_receptance() {
     let unit = Weights::Full(DMatrix::identity(12, 12));
     let same = VirtualPoint::new(set_up.clone(), &ones, &unit).unwrap();
     assert_eq!(same, equal(set_up));
+}
+
+/// Of a beam along x that bends along y: deflections at places along it tell y and its slope.
+fn in_a_plane(sensors_m: &[f64], impacts_m: &[f64]) -> SetUp {
+    let place = |&x: &f64| Vector3::new(x, 0.0, 0.0);
+    let sensor = |x| Sensor::uniaxial(place(x), Vector3::y(), 1.0).unwrap();
+    let impact = |x| Impact::new(place(x), Vector3::y(), 1.0).unwrap();
+    let sensors: Vec<_> = sensors_m.iter().map(sensor).collect();
+    let impacts: Vec<_> = impacts_m.iter().map(impact).collect();
+    let plane = Motions::of(&[Dof::Y, Dof::Rz]).unwrap();
+    SetUp::new(&sensors, &impacts).unwrap().in_motions(plane)
+}
+
+#[test]
+fn two_deflections_are_a_virtual_point_in_a_plane() {
+    let point = equal(in_a_plane(&[-0.01, 0.05], &[0.0, 0.04]));
+    let (t_u, t_f) = (point.motions_of_channels(), point.forces_of_loads());
+    // y = u₁ + (u₂ − u₁)/6, θ = (u₂ − u₁)/60 mm; f₁ + f₂ = f, 40 mm f₂ = m
+    let expected_u = [(1, [5.0 / 6.0, 1.0 / 6.0]), (5, [-1.0 / 0.06, 1.0 / 0.06])];
+    let expected_f = [(1, [1.0, 0.0]), (5, [-25.0, 25.0])];
+    for (n, expected) in expected_u {
+        for (channel, expected) in expected.into_iter().enumerate() {
+            near(t_u[(n, channel)], expected, 1e-12);
+        }
+    }
+    for (n, expected) in expected_f {
+        for (impact, expected) in expected.into_iter().enumerate() {
+            near(t_f[(impact, n)], expected, 1e-12);
+        }
+    }
+    for n in [0, 2, 3, 4] {
+        assert!(
+            t_u.row(n)
+                .iter()
+                .chain(t_f.column(n).iter())
+                .all(|own| *own == 0.0)
+        );
+    }
+}
+
+#[test]
+fn a_plane_asks_for_two_places_that_differ() {
+    let refused = |sensors_m: &[f64]| {
+        let set_up = in_a_plane(sensors_m, &[0.0, 0.04]);
+        VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal)
+            .unwrap_err()
+            .to_string()
+    };
+    let few = "channels: found 1, expected 2 or more";
+    assert!(refused(&[0.01]).starts_with(few), "{}", refused(&[0.01]));
+    let alike = refused(&[0.01, 0.01]);
+    let expected = "channels: found rank 1, expected 2: no channel sees the rotation about the line through (0.01, 0, 0) m along (0, 0, 1)";
+    assert!(alike.starts_with(expected), "{alike}");
+}
+
+/// A channel 10 % too large among five, and derivatives by differences.
+#[test]
+fn what_is_wrong_in_a_plane_is_found() {
+    let set_up = in_a_plane(&[-0.04, -0.02, 0.0, 0.03, 0.05], &[-0.03, 0.0, 0.03]);
+    let point = equal(set_up.clone());
+    let receptance = full_receptance(0);
+    let mut lines: Vec<_> = (0..3)
+        .map(|n| set_up.functions(&full_receptance(n)))
+        .collect();
+    for line in &mut lines {
+        line.row_mut(3).scale_mut(1.1);
+    }
+    let suspects = point.suspects(Role::Channel, &lines).unwrap().unwrap();
+    assert_eq!(suspects.bad, Some(crate::Place::Channel(3)));
+    near(suspects.ranked[0].diagnosis.gains[0], 1.1, 1e-9);
+    let functions = set_up.functions(&receptance);
+    let step = 1e-7;
+    for (p, derivative) in point.derivatives(&functions).unwrap().iter().enumerate() {
+        let moved = |size: f64| {
+            let mut errors = vec![0.0; set_up.parameters().len()];
+            errors[p] = size;
+            equal(set_up.displaced(&errors).unwrap())
+                .receptance(&functions)
+                .unwrap()
+        };
+        let difference = (moved(step) - moved(-step)) / Complex64::from(2.0 * step);
+        assert!(
+            (difference - derivative).norm() < 1e-6 * receptance.norm() * 50.0,
+            "{p}"
+        );
+    }
 }

@@ -151,8 +151,12 @@ pub(super) fn unknown_json(unknown: &Unknown) -> serde_json::Value {
 /// The result for people.
 fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
     let mut text = format!(
-        "{}\njoint in space, model {}, from {} functions of the assembly at {} lines\n",
-        study.name, study.model, found.functions, found.lines
+        "{}\njoint {}, model {}, from {} functions of the assembly at {} lines\n",
+        study.name,
+        study.whereabouts(),
+        study.model,
+        found.functions,
+        found.lines
     );
     let mut table = Table::new(&[
         "",

@@ -129,10 +129,9 @@ fn figure(name: &str, answers: &Answers) -> Option<Drawn> {
                 let end = own.map(|(&(hz, value), own)| (hz, value + sign * QUANTILE * own));
                 let points: Vec<(f64, f64)> = end.filter(|&(_, value)| value > 0.0).collect();
                 ResponseCurve {
-                    name: if sign < 0.0 {
-                        "95 %".to_owned()
-                    } else {
-                        String::new()
+                    name: match sign < 0.0 {
+                        true => "lower end".to_owned(),
+                        false => "upper end".to_owned(),
                     },
                     is_dashed: vec![true; points.len()],
                     points,

@@ -34,7 +34,8 @@ pub(super) fn section(found: &SpatialIdentification) -> String {
 #[must_use]
 pub fn spatial_figure(study: &SpatialStudy, found: &SpatialIdentification) -> String {
     let subtitle = format!(
-        "joint in space, model {}, {} at {}; residual {} r.m.s.",
+        "joint {}, model {}, {} at {}; residual {} r.m.s.",
+        study.whereabouts(),
         escaped(&study.model),
         counted(found.functions, "function"),
         counted(found.lines, "line"),

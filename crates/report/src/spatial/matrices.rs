@@ -1,6 +1,7 @@
 //! K and C in blocks: translations, rotations, and what couples them.
 
 use bolted_joint_figures::html::{beside, shown, spread, table};
+use bolted_joint_space::Motions;
 use bolted_joint_spatial::SpatialIdentification;
 use nalgebra::Matrix6;
 
@@ -38,7 +39,7 @@ const BLOCKS: [Block; 3] = [
     },
 ];
 
-pub(super) fn section(found: &SpatialIdentification) -> String {
+pub(super) fn section(found: &SpatialIdentification, motions: Motions) -> String {
     let mut html = "<h2>Stiffness and damping</h2>\n<p>For the relative motion of the two virtual points, each value with its \
                     standard deviation and with the digits that this warrants. Both matrices are symmetric: what stands below \
                     the diagonal of a block is left out. Coupling has forces by rotations, and moments by translations across \
@@ -55,40 +56,55 @@ pub(super) fn section(found: &SpatialIdentification) -> String {
     {
         html += &format!("<h3>{heading}</h3>\n<div class=\"blocks\">\n");
         for block in &BLOCKS {
-            html += &of_block(block, block.units[part], letter, matrix, deviations);
+            html += &block.html(block.units[part], letter, [matrix, deviations], motions);
         }
         html += "</div>\n";
     }
     html
 }
 
-fn of_block(
-    block: &Block,
-    unit: &str,
-    letter: &str,
-    matrix: &Matrix6<f64>,
-    deviations: &Matrix6<f64>,
-) -> String {
-    let [row, column] = block.first;
-    let is_symmetric = row == column;
-    let places = || (0..3).flat_map(|i| (0..3).map(move |j| (row + i, column + j)));
-    let largest = places()
-        .map(|(i, j)| matrix[(i, j)].abs().max(deviations[(i, j)]))
-        .fold(0.0, f64::max);
-    if largest == 0.0 {
-        return format!(
-            "<div><p class=\"block\">{}</p><p>None in this model.</p></div>\n",
-            block.name
-        );
-    }
-    let (power, scaled) = scaled(largest, unit);
-    let scale = 10_f64.powi(power);
-    let of = |dof: usize| [TRANSLATIONS, ROTATIONS].concat()[dof];
-    let rows: Vec<String> = (0..3)
-        .map(|i| {
-            let cells: String = (0..3)
-                .map(|j| {
-                    let at = (row + i, column + j);
+impl Block {
+    /// Its rows and columns that are among these motions.
+    fn html(
+        &self,
+        unit: &str,
+        letter: &str,
+        [matrix, deviations]: [&Matrix6<f64>; 2],
+        motions: Motions,
+    ) -> String {
+        let block = self;
+        let own = |first: usize| -> Vec<usize> {
+            let all = motions.rows().into_iter();
+            all.filter(|motion| (first..first + 3).contains(motion))
+                .collect()
+        };
+        let [own_rows, own_columns] = block.first.map(own);
+        let is_symmetric = block.first[0] == block.first[1];
+        let places = || {
+            own_rows
+                .iter()
+                .flat_map(|&i| own_columns.iter().map(move |&j| (i, j)))
+        };
+        if places().next().is_none() {
+            return String::new();
+        }
+        let largest = places()
+            .map(|(i, j)| matrix[(i, j)].abs().max(deviations[(i, j)]))
+            .fold(0.0, f64::max);
+        if largest == 0.0 {
+            return format!(
+                "<div><p class=\"block\">{}</p><p>None in this model.</p></div>\n",
+                block.name
+            );
+        }
+        let (power, scaled) = scaled(largest, unit);
+        let scale = 10_f64.powi(power);
+        let of = |dof: usize| [TRANSLATIONS, ROTATIONS].concat()[dof];
+        let rows: Vec<String> = own_rows.iter()
+        .map(|&i| {
+            let cells: String = own_columns.iter()
+                .map(|&j| {
+                    let at = (i, j);
                     if is_symmetric && j < i {
                         return "<td></td>".to_owned();
                     }
@@ -117,21 +133,23 @@ fn of_block(
                     )
                 })
                 .collect();
-            format!("<th scope=\"row\">{}</th>{cells}", of(row + i))
+            format!("<th scope=\"row\">{}</th>{cells}", of(i))
         })
         .collect();
-    let headings: Vec<String> = std::iter::once(String::new())
-        .chain((0..3).map(|j| of(column + j).to_owned()))
-        .collect();
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
-    let example = match is_symmetric {
-        true => format!("{letter}_{}_{}", of(row), of(column + 1)),
-        false => format!("{letter}_{}_{}", of(row), of(column)),
-    };
-    format!(
-        "<div><p class=\"block\">{}, such as {}: {scaled}</p>\n{}</div>\n",
-        block.name,
-        symbol(&example),
-        table(&headings, &rows)
-    )
+        let headings: Vec<String> = std::iter::once(String::new())
+            .chain(own_columns.iter().map(|&j| of(j).to_owned()))
+            .collect();
+        let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+        let example = match (own_rows[0], own_columns[own_columns.len().min(2) - 1]) {
+            (row, column) if row == column => format!("{letter}_{}", of(row)),
+            (row, column) if is_symmetric => format!("{letter}_{}_{}", of(row), of(column)),
+            (row, _) => format!("{letter}_{}_{}", of(row), of(own_columns[0])),
+        };
+        format!(
+            "<div><p class=\"block\">{}, such as {}: {scaled}</p>\n{}</div>\n",
+            block.name,
+            symbol(&example),
+            table(&headings, &rows)
+        )
+    }
 }

@@ -37,10 +37,15 @@ impl SpatialReport<'_> {
     pub fn to_html(&self) -> String {
         let origin = self.found.joint_file(self.study).provenance;
         let origin = origin.map_or_else(String::new, |origin| provenance(&origin));
+        let motions = self.study.motions();
         let sections = [
             self.summary(),
-            matrices::section(self.found),
-            axes::section(self.found),
+            matrices::section(self.found, motions),
+            match motions.are_all() {
+                true => axes::section(self.found),
+                // a plane has no axes to be found
+                false => String::new(),
+            },
             consistency::section(self),
             set_up::section(self.found),
             functions::section(self.found),
@@ -50,7 +55,7 @@ impl SpatialReport<'_> {
         .concat();
         page(
             &self.study.name,
-            "identification of a joint in space",
+            &format!("identification of a joint {}", self.study.whereabouts()),
             self.written,
             &sections,
         )

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
-use crate::{Axes, Entry, Part, SpaceError};
+use crate::{Axes, Entry, Motions, Part, SpaceError};
 
 /// Unknowns of a joint model, and the matrices that they are factors of.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,25 @@ impl Parametrisation {
             *basis = told(basis);
         }
         self
+    }
+
+    /// The unknowns between some motions alone, of a model each of whose unknowns is an entry of the matrix.
+    ///
+    /// # Errors
+    ///
+    /// [`SpaceError::TooFew`] where none is left, [`SpaceError::OfSixMotions`] for models whose unknowns are several entries.
+    pub fn within(&self, motions: Motions) -> Result<Self, SpaceError> {
+        let pairs = || self.entries.iter().copied().zip(self.bases.iter().copied());
+        if pairs().any(|(entry, basis)| basis != entry.unit()) {
+            return Err(SpaceError::OfSixMotions { motions });
+        }
+        let is_kept = |(entry, _): &(Entry, _)| motions.has(entry.row) && motions.has(entry.column);
+        let kept: Vec<_> = pairs().filter(is_kept).collect();
+        if kept.is_empty() {
+            let (what, found, least) = ("numbers of the model between these motions", 0, 1);
+            return Err(SpaceError::TooFew { what, found, least });
+        }
+        Ok(Self::new(kept, self.axes))
     }
 
     /// How many unknowns.

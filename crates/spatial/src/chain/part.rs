@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use bolted_joint_frf::structure::ModalModel;
 use bolted_joint_frf::{Dof, FrfSet, Sign};
+use bolted_joint_space::Motions;
 use bolted_joint_study::{Paths, StudyError, StudyText};
-use bolted_joint_virtual_point::{Impact, Role, Sensor, SetUp, VirtualPointError};
+use bolted_joint_virtual_point::{Impact, Places, Role, Sensor, SetUp, VirtualPointError};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
-use crate::side::{Interface, MOTIONS, Placed, Side};
+use crate::side::{Interface, Placed, Side};
 use crate::study::DIRECTIONS;
 
 /// A function below this part of the largest one of its kind is none: nothing moves.
@@ -48,6 +49,8 @@ pub(crate) struct PartInterface {
     /// Its node in the functions. With sensors and impacts beside it, these are where a test will have them, and move as the rigid
     /// interface does.
     pub(crate) node: Option<u32>,
+    /// The motions that it has.
+    pub(crate) motions: Motions,
     pub(crate) sensors: Vec<(Vec<Dof>, Sensor)>,
     pub(crate) impacts: Vec<(Dof, Impact)>,
 }
@@ -68,9 +71,12 @@ impl Row {
 }
 
 impl PartInterface {
-    /// The six motions of its node.
-    fn node_dofs(node: u32) -> [Dof; MOTIONS] {
-        DIRECTIONS.map(|direction| Dof::new(node, direction, Sign::Plus))
+    /// The motions of its node.
+    fn node_dofs(&self, node: u32) -> Vec<Dof> {
+        let directions = self.motions.rows().into_iter().map(|row| DIRECTIONS[row]);
+        directions
+            .map(|direction| Dof::new(node, direction, Sign::Plus))
+            .collect()
     }
 
     /// Its sensors and impacts.
@@ -88,25 +94,64 @@ impl PartInterface {
             .iter()
             .map(|(_, impact)| impact.clone())
             .collect();
-        SetUp::new(&sensors, &impacts).map(Some)
+        let set_up = SetUp::new(&sensors, &impacts)?;
+        Ok(Some(set_up.in_motions(self.motions)))
     }
 
     /// The same, refused by its key.
     pub(crate) fn checked(&self, study: &StudyText) -> Result<Option<SetUp>, StudyError> {
-        self.set_up().map_err(|source| {
+        let set_up = self.set_up().map_err(|source| {
             let list = if self.sensors.is_empty() {
                 "sensors"
             } else {
                 "impacts"
             };
             study_model(study, format_args!("{}.{list}", self.name), source)
-        })
+        })?;
+        if let Some(set_up) = &set_up {
+            for (role, list) in [(Role::Channel, "sensors"), (Role::Impact, "impacts")] {
+                self.ensure_all_see(study, set_up.places(role), list)?;
+            }
+        }
+        Ok(set_up)
+    }
+
+    /// What has to do with no motion of the interface tells nothing.
+    fn ensure_all_see(
+        &self,
+        study: &StudyText,
+        places: &Places,
+        list: &str,
+    ) -> Result<(), StudyError> {
+        for (place, mut rows) in places.rows_of_each().into_iter().enumerate() {
+            let sees = |row: usize| places.matrix().row(row).iter().any(|own| *own != 0.0);
+            let expected = format_args!(
+                "sensors and impacts that have to do with {}; of a triaxial sensor state these channels as sensors with a dof",
+                self.motions
+            )
+            .to_string();
+            let key = format_args!("{}.{list}[{place}]", self.name).to_string();
+            study.ensure(
+                rows.all(sees),
+                key,
+                "a direction that none of the motions has",
+                expected,
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Whether an impact has to do with any of its motions.
+    pub(crate) fn is_moved(&self, impact: &Impact) -> Result<bool, VirtualPointError> {
+        let places = Places::impacts(std::slice::from_ref(impact))?;
+        let places = places.in_motions(self.motions);
+        Ok(places.matrix().iter().any(|own| *own != 0.0))
     }
 
     /// Its responses and its references.
     pub(crate) fn counts(&self) -> [usize; 2] {
         match (&self.sensors[..], &self.impacts[..]) {
-            ([], []) => [MOTIONS; 2],
+            ([], []) => [self.motions.count(); 2],
             (sensors, impacts) => [
                 sensors.iter().map(|(dofs, _)| dofs.len()).sum(),
                 impacts.len(),
@@ -116,7 +161,7 @@ impl PartInterface {
 
     fn rows(&self, set_up: Option<&SetUp>, role: Role) -> Vec<Row> {
         let Some(set_up) = set_up else {
-            let dofs = self.node.map(Self::node_dofs);
+            let dofs = self.node.map(|node| self.node_dofs(node));
             return dofs.into_iter().flatten().map(Row::own).collect();
         };
         let dofs: Vec<Dof> = match role {
@@ -134,12 +179,56 @@ impl PartInterface {
         let matrix = set_up.places(role).matrix();
         let row = |(n, dof): (usize, Dof)| Row {
             dof,
-            of: Self::node_dofs(node)
+            of: self
+                .node_dofs(node)
                 .into_iter()
-                .zip(matrix.row(n).iter().copied())
+                .zip(self.motions.rows())
+                .map(|(own, motion)| (own, matrix[(n, motion)]))
                 .collect(),
         };
         dofs.into_iter().enumerate().map(row).collect()
+    }
+
+    /// A node whose functions are zero in some motion is one of a structure in a plane.
+    fn ensure_moves(
+        &self,
+        study: &StudyText,
+        responses: &[Dof],
+        references: &[Dof],
+        functions: &[Vec<Vec<Complex64>>],
+    ) -> Result<(), StudyError> {
+        let Some(node) = self.node else {
+            return Ok(());
+        };
+        let own: Vec<(Dof, f64)> = (self.node_dofs(node).into_iter())
+            .map(|dof| {
+                let place = |all: &[Dof]| all.iter().position(|one| *one == dof);
+                let largest = place(responses)
+                    .zip(place(references))
+                    .map(|(row, column)| {
+                        let sizes = functions[row][column].iter().map(|value| value.norm());
+                        sizes.fold(0.0, f64::max)
+                    });
+                (dof, largest.unwrap_or(0.0))
+            })
+            .collect();
+        let largest_like = |dof: &Dof| {
+            let alike = own.iter().filter(|(other, _)| {
+                other.direction().is_translation() == dof.direction().is_translation()
+            });
+            alike.fold(0.0, |largest, (_, size)| f64::max(largest, *size))
+        };
+        let held: Vec<String> = own
+            .iter()
+            .filter(|(dof, size)| *size <= NOTHING * largest_like(dof))
+            .map(|(dof, _)| dof.to_string())
+            .collect();
+        study.ensure(
+            held.is_empty(),
+            format_args!("{}.interface", self.name),
+            format_args!("functions of {} that are zero", held.join(", ")),
+            "a structure that moves in space; a test in a plane says motions = [\"y\", \"rz\"], or takes method \"frf-decoupling\"",
+        )
     }
 }
 
@@ -170,7 +259,7 @@ impl Part {
             interfaces.push(Placed {
                 name: own.name.clone(),
                 first,
-                interface: set_up.map_or(Interface::Node, Interface::Points),
+                interface: set_up.map_or(Interface::Node(own.motions), Interface::Points),
             });
         }
         rows.extend(self.responses.iter().copied().map(Row::own));
@@ -213,9 +302,7 @@ impl Part {
             })
             .collect();
         for own in self.interfaces.iter().chain(&self.beside) {
-            if let Some(node) = own.node {
-                self.ensure_moves(study, &own.name, node, &responses, &references, &functions)?;
-            }
+            own.ensure_moves(study, &responses, &references, &functions)?;
         }
         Ok(lines)
     }
@@ -236,7 +323,10 @@ impl Part {
             Some(own) => study.refusal(
                 format_args!("{}.interface", own.name),
                 source,
-                "functions between all six motions of the node (+X to +RZ); a structure in a plane is for method \"frf-decoupling\"",
+                format_args!(
+                    "functions between its motions {}; a test in a plane says motions = [\"y\", \"rz\"], or takes method \"frf-decoupling\"",
+                    own.motions
+                ),
             ),
             None => study.refusal(&self.name, source, "functions between all sensors and impacts"),
         }
@@ -261,44 +351,6 @@ impl Part {
                 )),
             },
         }
-    }
-
-    /// A node whose functions are zero in some motion is one of a structure in a plane.
-    fn ensure_moves(
-        &self,
-        study: &StudyText,
-        name: &str,
-        node: u32,
-        responses: &[Dof],
-        references: &[Dof],
-        functions: &[Vec<Vec<Complex64>>],
-    ) -> Result<(), StudyError> {
-        let own: Vec<f64> = PartInterface::node_dofs(node)
-            .iter()
-            .map(|dof| {
-                let place = |all: &[Dof]| all.iter().position(|one| one == dof);
-                let (row, column) = place(responses).zip(place(references))?;
-                Some(
-                    functions[row][column]
-                        .iter()
-                        .map(|value| value.norm())
-                        .fold(0.0, f64::max),
-                )
-            })
-            .map(|size| size.unwrap_or(0.0))
-            .collect();
-        let kinds = [&own[..3], &own[3..]];
-        let largest = kinds.map(|kind| kind.iter().copied().fold(0.0, f64::max));
-        let held: Vec<String> = (0..MOTIONS)
-            .filter(|&dof| own[dof] <= NOTHING * largest[dof / 3])
-            .map(|dof| Dof::new(node, DIRECTIONS[dof], Sign::Plus).to_string())
-            .collect();
-        study.ensure(
-            held.is_empty(),
-            format_args!("{name}.interface"),
-            format_args!("functions of {} that are zero", held.join(", ")),
-            "a structure that moves in space; one in a plane is for method \"frf-decoupling\", with two motions",
-        )
     }
 }
 

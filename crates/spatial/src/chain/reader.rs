@@ -5,7 +5,7 @@ use std::path::Path;
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{ModalModel, SpaceBeam, SpacePoint, Theory};
 use bolted_joint_joint::JointFile;
-use bolted_joint_space::Dof as Motion;
+use bolted_joint_space::{Dof as Motion, Motions};
 use bolted_joint_study::{FrequencyTable, LineChoice, StudyError};
 use bolted_joint_virtual_point::Impact;
 use nalgebra::{Matrix6, Vector3};
@@ -22,6 +22,9 @@ use crate::tables::{
 
 /// Lines of a study where no file of functions has any, at most.
 const MOST_LINES: f64 = 1e5;
+
+/// Coupling of a known joint between the motions of a study and others, in parts of what it holds, that is none.
+const UNCOUPLED: f64 = 1e-6;
 
 /// Length of a joint that is known and has no rotations: it scales nothing.
 const ANY_LENGTH_M: f64 = 1.0;
@@ -197,7 +200,7 @@ impl Reader<'_> {
             return self.study.refuse(
                 format_args!("{name}.interface"),
                 format_args!("{node} beside sensors or impacts"),
-                "either the node whose six motions are the interface's, or sensors and impacts near it",
+                "either the node whose motions are the interface's, or sensors and impacts near it",
             );
         }
         let sensors = sensors
@@ -211,6 +214,7 @@ impl Reader<'_> {
         Ok(PartInterface {
             name: name.to_owned(),
             node,
+            motions: self.motions,
             sensors: sensors.collect::<Result<_, _>>()?,
             impacts: impacts.collect::<Result<_, _>>()?,
         })
@@ -346,6 +350,7 @@ impl Reader<'_> {
         let link = Link {
             key: key.to_owned(),
             length_m,
+            motions: self.motions,
             numbers,
         };
         Ok((link, scatter))
@@ -362,14 +367,39 @@ impl Reader<'_> {
             None => None,
             Some(ExpectedTable::File(path)) => Some(self.joint_file(&key, path)?),
             Some(ExpectedTable::Matrices(own)) => {
-                let MatricesTable { stiffness, damping } = own.as_ref();
-                let matrices = [stiffness, damping].map(|rows| Matrix6::from_fn(|i, j| rows[i][j]));
+                let MatricesTable { stiffness, damping } = own;
+                let matrices = [
+                    self.stated(&format!("{key}.stiffness"), stiffness)?,
+                    self.stated(&format!("{key}.damping"), damping)?,
+                ];
                 Some(Known {
-                    matrices,
+                    matrices: self.between_motions(&key, matrices)?,
                     scatter: None,
                 })
             }
         })
+    }
+
+    /// A matrix with a row and a column for each motion of the study, or for all six.
+    fn stated(&self, key: &str, rows: &[Vec<f64>]) -> Result<Matrix6<f64>, StudyError> {
+        let own = match rows.len() {
+            6 => Motions::ALL,
+            _ => self.motions,
+        };
+        let count = own.count();
+        self.study.ensure(
+            rows.len() == count && rows.iter().all(|row| row.len() == count),
+            key,
+            format_args!("{} rows", rows.len()),
+            format_args!("{count} rows of {count} numbers each, for the motions {own}"),
+        )?;
+        let mut matrix = Matrix6::zeros();
+        for (row, i) in rows.iter().zip(own.rows()) {
+            for (number, j) in row.iter().zip(own.rows()) {
+                matrix[(i, j)] = *number;
+            }
+        }
+        Ok(matrix)
     }
 
     /// K and C of a joint file, in six motions.
@@ -380,12 +410,17 @@ impl Reader<'_> {
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))?;
         let dofs = file.joint.dofs;
         self.study.ensure(
-            dofs.is_in_space(),
+            dofs.is_in_space() || self.are_of_a_beam_along_x(),
             key,
             format_args!("a joint with {dofs}"),
-            "one in space, with some of x, y, z, rx, ry, rz",
+            "one in space, with some of x, y, z, rx, ry, rz; one in a plane is for motions = [\"y\", \"rz\"]",
         )?;
-        let names = dofs.names();
+        // the slope of a beam along x is its rotation about z
+        let name = |name| match name {
+            "theta" => Motion::Rz.symbol(),
+            name => name,
+        };
+        let names: Vec<&str> = dofs.names().into_iter().map(name).collect();
         let place = |dof: Motion| names.iter().position(|name| *name == dof.symbol());
         let of = |rows: &[Vec<f64>]| {
             Matrix6::from_fn(|i, j| {
@@ -394,11 +429,40 @@ impl Reader<'_> {
             })
         };
         Ok(Known {
-            matrices: [of(&file.joint.stiffness), of(&file.joint.damping)],
+            matrices: self
+                .between_motions(key, [of(&file.joint.stiffness), of(&file.joint.damping)])?,
             scatter: file
                 .uncertainty
                 .as_ref()
                 .and_then(|own| Scatter::of(own, &names)),
         })
+    }
+    /// Whether the interfaces move as the end of a beam along x that bends along y, and no further but along it.
+    fn are_of_a_beam_along_x(&self) -> bool {
+        let has = |dof| self.motions.has(dof);
+        let has_others = [Motion::Z, Motion::Rx, Motion::Ry].into_iter().any(has);
+        has(Motion::Y) && has(Motion::Rz) && !has_others
+    }
+
+    /// What of a known joint's K and C is between the motions of the study, where it couples these to no others.
+    fn between_motions(
+        &self,
+        key: &str,
+        matrices: [Matrix6<f64>; 2],
+    ) -> Result<[Matrix6<f64>; 2], StudyError> {
+        for matrix in &matrices {
+            let coupling = self.motions.coupling_to_others(matrix);
+            self.study.ensure(
+                coupling <= UNCOUPLED,
+                key,
+                format_args!(
+                    "a joint that couples {} to other motions, by {:.2} % of what it holds",
+                    self.motions,
+                    100.0 * coupling
+                ),
+                "one with the plane as a mirror plane, or a study with all motions that it couples",
+            )?;
+        }
+        Ok(matrices.map(|matrix| self.motions.part(&matrix)))
     }
 }

@@ -50,7 +50,7 @@ impl ChainStudy {
         let own = interface_at(end, at, is_behind);
         let interface = own
             .checked(&self.text)?
-            .map_or(Interface::Node, Interface::Points);
+            .map_or(Interface::Node(own.motions), Interface::Points);
         let frequency_hz = &self.problem.frequency_hz;
         if parts.len() == 1 {
             return end.side(&self.text, frequency_hz);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use bolted_joint_frf::{Dof, FrfSet};
 use bolted_joint_joint::InputFile;
+use bolted_joint_space::Motions;
 use bolted_joint_study::{Method, Paths, StudyError, StudyText, input_file};
 use nalgebra::Matrix6;
 
@@ -13,7 +14,7 @@ use super::response::Scatter;
 use crate::links::{Links, Numbers};
 use crate::problem::{Level, Observed, Problem};
 use crate::side::Side;
-use crate::study::{Reader, model_name};
+use crate::study::{Reader, model_name, motions};
 use crate::tables::StudyFile;
 
 /// A checked study of parts in a chain with joints between them: two parts with one joint, or more.
@@ -36,6 +37,8 @@ pub struct ChainStudy {
     /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
     pub noise: [f64; 2],
     pub(crate) text: StudyText,
+    /// What the interfaces have.
+    pub(crate) motions: Motions,
     pub(crate) parts: Vec<Part>,
     pub(crate) problem: Problem,
     /// What was measured of the assembly.
@@ -58,7 +61,8 @@ impl ChainStudy {
         let file: StudyFile = study.tables()?;
         study.check_method(file.method, &[Method::FrfSpace])?;
         study.check_name("name", &file.name)?;
-        let reader = Reader { study };
+        let motions = motions(study, file.motions.as_deref())?;
+        let reader = Reader { study, motions };
         let tables = [
             ("a", Some(&file.a)),
             ("b", Some(&file.b)),
@@ -175,6 +179,7 @@ impl ChainStudy {
             level,
             noise,
             text: study.clone(),
+            motions,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
@@ -193,7 +198,10 @@ impl ChainStudy {
 
     /// What was measured of the assembly.
     pub(crate) fn observed(&self) -> Result<Vec<Observed>, StudyError> {
-        let reader = Reader { study: &self.text };
+        let reader = Reader {
+            study: &self.text,
+            motions: self.motions,
+        };
         reader.observed(&self.problem.sides, self.assembly.as_ref())
     }
 

@@ -351,7 +351,8 @@ impl<'p> Beside<'p> {
         for n in [0, 1] {
             if self.has_set_up(n) {
                 of_set_up.extend(model.rows[n].patterns(first));
-                first += MOTIONS * model.rows[n].near().iter().sum::<usize>();
+                let motions = model.rows[n].reduction.own.count();
+                first += motions * model.rows[n].near().iter().sum::<usize>();
             }
         }
         let patterns = Patterns::beside(self.problem, of_set_up);

@@ -14,7 +14,7 @@ use crate::assembled::{Assembled, Line};
 use crate::dyads::Group;
 use crate::error::SpatialError;
 use crate::problem::{Observed, Problem, Unknowns, block_diagonal};
-use crate::side::{Interface, MOTIONS, Placed, Side};
+use crate::side::{Interface, Placed, Side};
 
 /// h of both sides at one line.
 pub(super) type Hidden = [DMatrix<Complex64>; 2];
@@ -35,7 +35,7 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
                 .map(|placed| Placed {
                     name: placed.name.clone(),
                     first: [0, 0],
-                    interface: Interface::Node,
+                    interface: Interface::Node(own.motions_of_one()),
                 })
                 .collect(),
         }
@@ -119,6 +119,7 @@ impl<'p> Model<'p> {
     /// Of the reduced functions of a side: in the assembly.
     pub(super) fn of_hidden(&self, side: usize, at: &Computed) -> Group {
         let own = &self.rows[side].reduction;
+        let motions = own.own.rows();
         let sign = Complex64::from(if side == 0 { 1.0 } else { -1.0 });
         let [responses, references] = &self.all;
         let (a, b) = (&at.line.by_joint_loads, &at.line.joint_motions);
@@ -132,8 +133,8 @@ impl<'p> Model<'p> {
         let mut left = DMatrix::zeros(responses.nrows(), own.rows.ncols());
         left.view_mut((first_row, 0), own.rows.shape())
             .copy_from(&own.rows);
-        let mut of_interface = left.columns_mut(0, MOTIONS);
-        of_interface -= responses * (a * &at.line.dynamic) * sign;
+        let mut of_interface = left.columns_mut(0, motions.len());
+        of_interface -= (responses * (a * &at.line.dynamic) * sign).select_columns(&motions);
         let mut right = DMatrix::zeros(own.columns.ncols(), references.nrows());
         right
             .view_mut(
@@ -141,8 +142,9 @@ impl<'p> Model<'p> {
                 (own.columns.ncols(), own.columns.nrows()),
             )
             .copy_from(&own.columns.transpose());
-        let mut of_interface = right.rows_mut(0, MOTIONS);
-        of_interface -= (&at.line.dynamic * b) * references.transpose() * sign;
+        let mut of_interface = right.rows_mut(0, motions.len());
+        let changes = (&at.line.dynamic * b) * references.transpose() * sign;
+        of_interface -= changes.select_rows(&motions);
         Group { left, right }
     }
 
@@ -180,16 +182,18 @@ impl<'p> Model<'p> {
             }
         };
         let [responses, references] = &self.all;
-        let motions = at.whole.rows(before[1], MOTIONS) * references.transpose();
-        let by_loads = responses * at.whole.columns(before[3], MOTIONS);
+        let count = self.rows[side].reduction.own.count();
+        let motions = at.whole.rows(before[1], count) * references.transpose();
+        let by_loads = responses * at.whole.columns(before[3], count);
         self.of_rows(side, motions, by_loads, [before[0], before[2]])
     }
 
     /// In the substructure itself.
     pub(super) fn of_set_up_alone(&self, side: usize, hidden: &Hidden) -> [Group; 2] {
         let own = &self.rows[side].reduction;
-        let motions = hidden[side].rows(0, MOTIONS) * own.columns.transpose();
-        let by_loads = &own.rows * hidden[side].columns(0, MOTIONS);
+        let count = own.own.count();
+        let motions = hidden[side].rows(0, count) * own.columns.transpose();
+        let by_loads = &own.rows * hidden[side].columns(0, count);
         self.of_rows(side, motions, by_loads, [0, 0])
     }
 

@@ -6,13 +6,13 @@ use num_complex::Complex64;
 
 use crate::error::SpatialError;
 use crate::patterns::Pattern;
-use crate::side::{MOTIONS, Reduction, Side};
+use crate::side::{Reduction, Side};
 
 /// R_u, R_f of one side with errors of its set-up, and how they change with each of these.
 pub(super) struct Rows {
-    /// R_u, responses × (6 + others); R_f, references × (6 + others); and their inverses.
+    /// R_u, responses × (motions + others); R_f, references × (motions + others); and their inverses.
     pub(super) reduction: Reduction,
-    /// dR_u by each error of the sensors, channels × 6; dR_f by each of the impacts, impacts × 6.
+    /// dR_u by each error of the sensors, channels × motions; dR_f by each of the impacts, impacts × motions.
     pub(super) changes: [Vec<DMatrix<f64>>; 2],
 }
 
@@ -30,6 +30,9 @@ impl Rows {
                 rest = others;
                 let by_vectors = places.by_rotation_vectors(own, first);
                 by_vectors.map_err(|source| placed.refused(source))?;
+                for change in own {
+                    *change = change.select_columns(&reduction.own.rows());
+                }
             }
         }
         Ok(Self { reduction, changes })
@@ -37,21 +40,23 @@ impl Rows {
 
     /// Channels, and impacts, of the interface.
     pub(super) fn near(&self) -> [usize; 2] {
-        let near = |own: &DMatrix<Complex64>| own.nrows() - (own.ncols() - MOTIONS);
+        let motions = self.reduction.own.count();
+        let near = |own: &DMatrix<Complex64>| own.nrows() - (own.ncols() - motions);
         [&self.reduction.rows, &self.reduction.columns].map(near)
     }
 
-    /// What each error does, by the dyads of the channels (first those, channel by channel, six motions each) and of the impacts
+    /// What each error does, by the dyads of the channels (first those, channel by channel, all motions each) and of the impacts
     /// (motion by motion, all impacts each); `first` is the place of the first dyad.
     pub(super) fn patterns(&self, first: usize) -> Vec<Pattern> {
         let [channels, impacts] = self.near();
+        let motions = self.reduction.own.count();
         let of_channels = self.changes[0].iter().map(|change| {
-            let places = (0..channels).flat_map(|p| (0..MOTIONS).map(move |q| (p, q)));
-            Pattern::new(places.map(|(p, q)| (first + MOTIONS * p + q, change[(p, q)])))
+            let places = (0..channels).flat_map(|p| (0..motions).map(move |q| (p, q)));
+            Pattern::new(places.map(|(p, q)| (first + motions * p + q, change[(p, q)])))
         });
-        let first = first + MOTIONS * channels;
+        let first = first + motions * channels;
         let of_impacts = self.changes[1].iter().map(|change| {
-            let places = (0..MOTIONS).flat_map(|p| (0..impacts).map(move |q| (p, q)));
+            let places = (0..motions).flat_map(|p| (0..impacts).map(move |q| (p, q)));
             Pattern::new(places.map(|(p, q)| (first + impacts * p + q, change[(q, p)])))
         });
         of_channels.chain(of_impacts).collect()

@@ -3,7 +3,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::*;
 use crate::samples::{check_stiffness, scattered};
-use crate::{JointModel, Mirrors, numbers};
+use crate::{Dof, JointModel, Mirrors, Motions, Part, numbers};
 
 fn of(model: &JointModel) -> Parametrisation {
     model.parametrisation().unwrap()
@@ -223,4 +223,24 @@ fn what_is_no_model_is_refused() {
         form.nearest(&broken, 1.0),
         Err(SpaceError::NotFinite { .. })
     ));
+}
+
+#[test]
+fn a_plane_leaves_the_numbers_between_its_motions() {
+    let plane = Motions::of(&[Dof::Y, Dof::Rz]).unwrap();
+    let full = JointModel::Full.parametrisation().unwrap();
+    let own = full.within(plane).unwrap();
+    assert_eq!(own.names(Part::Stiffness), ["k_y", "k_y_rz", "k_rz"]);
+    let matrix = own.matrix(&[3.0, 2.0, 5.0]).unwrap();
+    assert_eq!(plane.part(&matrix), matrix);
+    assert_eq!((matrix[(1, 5)], matrix[(5, 1)]), (2.0, 2.0));
+    let bolt = JointModel::Bolt {
+        axis: Vector3::z(),
+        mirrors: Mirrors::Kept,
+    };
+    let error = bolt.parametrisation().unwrap().within(plane).unwrap_err();
+    assert!(error.to_string().contains("for a test of y, rz"), "{error}");
+    let turns = Motions::of(&[Dof::Rz]).unwrap();
+    let translations = JointModel::Translations.parametrisation().unwrap();
+    assert!(translations.within(turns).is_err());
 }

@@ -108,7 +108,7 @@ fn along(dof: Dof) -> &'static str {
     }
 }
 
-/// Triaxial sensors and impacts on the six faces of a cube about each virtual point whose node is in the functions, as far out as
+/// Triaxial sensors (in a plane, ones with a single channel) and impacts on the six faces of a cube about each virtual point whose node is in the functions, as far out as
 /// the interface is large; an impact across each face and one along it. And DOFs elsewhere that the functions have.
 pub(crate) fn proposed(
     parts: &[Part],
@@ -139,12 +139,21 @@ pub(crate) fn proposed(
                         thing,
                     };
                     let dofs = axes.map(|(_, direction)| Dof::new(node, direction, Sign::Plus));
-                    let sensor = Sensor::triaxial(position, &Axes::identity(), [1.0; 3])?;
-                    all.push(candidate(Thing::Sensor(dofs.to_vec(), sensor)));
+                    if interface.motions.are_all() {
+                        let sensor = Sensor::triaxial(position, &Axes::identity(), [1.0; 3])?;
+                        all.push(candidate(Thing::Sensor(dofs.to_vec(), sensor)));
+                    }
                     for aside in [0, 1] {
-                        let (along, direction) = axes[(n + aside) % 3];
-                        let dof = Dof::new(node, direction, Sign::Plus);
+                        let (along, _) = axes[(n + aside) % 3];
+                        let dof = dofs[(n + aside) % 3];
                         let impact = Impact::new(position, along, 1.0)?;
+                        if !interface.is_moved(&impact)? {
+                            continue;
+                        }
+                        if !interface.motions.are_all() {
+                            let sensor = Sensor::uniaxial(position, along, 1.0)?;
+                            all.push(candidate(Thing::Sensor(vec![dof], sensor)));
+                        }
                         all.push(candidate(Thing::Impact(dof, impact)));
                     }
                     node += 1;

@@ -240,7 +240,10 @@ fn observed(
     let is_node = |side: &Side, row: usize, which: usize| {
         side.interfaces.iter().any(|placed| {
             let first = placed.first[which];
-            matches!(placed.interface, Interface::Node) && (first..first + MOTIONS).contains(&row)
+            match placed.interface {
+                Interface::Node(motions) => (first..first + motions.count()).contains(&row),
+                Interface::Points(_) => false,
+            }
         })
     };
     let places = |which: usize| -> Result<Vec<usize>, SpatialError> {

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use bolted_joint_fourier::Transform;
+use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
 
 use super::{Profile, Roughness, SurfaceError};
 
@@ -93,9 +93,7 @@ impl Synthetic {
             let (cosine, sine) = (normal(), normal());
             *value = Complex64::new(cosine, -sine) * (density * spacing).sqrt();
         }
-        FftPlanner::new()
-            .plan_fft_inverse(period)
-            .process(&mut values);
+        Transform::inverse(period).apply(&mut values);
         let height_m = values.iter().take(self.points).map(|value| value.re);
         Profile::new(self.step_m, height_m.collect())
     }

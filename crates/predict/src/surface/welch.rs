@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
+use bolted_joint_fourier::Transform;
+use num_complex::Complex64;
 
 use super::{Detrend, SurfaceError};
 
@@ -105,8 +105,7 @@ impl Welch {
     pub fn spectrum(&self, height_m: &[f64], step_m: f64) -> Result<Spectrum, SurfaceError> {
         self.check(height_m.len())?;
         let weights = self.window.weights(self.segment);
-        let transform = FftPlanner::new().plan_fft_forward(self.segment);
-        let mut scratch = vec![Complex64::default(); transform.get_inplace_scratch_len()];
+        let transform = Transform::forward(self.segment);
         let lines = self.segment / 2 + 1;
         let mut power = vec![0.0; lines];
         let segments = self.segments(height_m.len());
@@ -118,7 +117,7 @@ impl Welch {
                 .zip(&weights)
                 .map(|(height, weight)| Complex64::from(height * weight))
                 .collect();
-            transform.process_with_scratch(&mut values, &mut scratch);
+            transform.apply(&mut values);
             for (sum, value) in power.iter_mut().zip(&values) {
                 *sum += value.norm_sqr();
             }

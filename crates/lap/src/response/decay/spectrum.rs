@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use bolted_joint_fourier::Transform;
 use num_complex::Complex64;
-use rustfft::FftPlanner;
 
 use super::{DecayProblem, Record};
 
@@ -34,9 +34,7 @@ impl Spectrum {
         let mut values: Vec<Complex64> = windowed
             .map(|(n, value)| Complex64::from(value * hann(n)))
             .collect();
-        FftPlanner::new()
-            .plan_fft_forward(count)
-            .process(&mut values);
+        Transform::forward(count).apply(&mut values);
         let moduli: Vec<f64> = values[..count / 2].iter().map(|v| v.norm()).collect();
         let mut sorted = moduli.clone();
         sorted.sort_by(f64::total_cmp);

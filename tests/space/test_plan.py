@@ -269,7 +269,7 @@ def test_without_a_list_places_about_the_interfaces_are_proposed(run, tmp_path):
 @pytest.mark.parametrize(
     "old, new, fragments",
     [
-        ("expected = {", "#", ["joint.expected", "6 × 6"]),
+        ("expected = {", "#", ["joint.expected", "for each motion"]),
         ("[noise]\nrelative = 0.01", "", ["noise.relative", "to be planned"]),
         ("[[a.sensors]]\nnode = 102", "[[b.sensors]]\nnode = 102", ["a", "rank 5", "rotation about the line"]),
         ("direction = [", "direction = [2.0, 0.0, 0.0] # [", ["a.impacts[0]", "unit"]),

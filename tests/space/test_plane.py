@@ -99,12 +99,16 @@ def test_a_plan_says_what_tests_would_give(run, tmp_path):
     chain = Chain([FIRST, SECOND])
     joint_file(tmp_path / "known.joint.json", *FIRST, ["y", "rz"])
     noise = 3e-3
-    expected = f"expected = {{ stiffness = {six(SECOND[0])}, damping = {six(SECOND[1])} }}"
+    expected = f"expected = {{ stiffness = {SECOND[0].tolist()}, damping = {six(SECOND[1])} }}"
     chain.write(tmp_path, FREQUENCIES[::2], EVERYWHERE, [KNOWN, SOUGHT + "\n" + expected], noise=noise, rng=np.random.default_rng(1),
                 more='budget = "none"\n')
     plan = tmp_path / "plan.toml"
     plan.write_text((tmp_path / "study.toml").read_text().replace('frf = "assembly.npz"\n', ""))
     planned = json.loads(run("respond", plan, "--plan", "--json").stdout)["unknowns"]
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(plan.read_text().replace(f"stiffness = {SECOND[0].tolist()}", "stiffness = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"))
+    told = run("respond", wrong, "--plan", expect=1).stderr
+    assert "joint[1].expected.stiffness" in told and "found 3 rows, expected 2 rows of 2 numbers each, for the motions y, rz" in told, told
     draws = []
     for draw in range(60):
         chain.write(tmp_path, FREQUENCIES[::2], EVERYWHERE, [KNOWN, SOUGHT], noise=noise, rng=np.random.default_rng(5000 + draw))

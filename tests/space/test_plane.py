@@ -129,6 +129,7 @@ def six(matrix):
     [
         ('["y", "rz"]', '["y", "theta"]', ["motions[1]", '"theta"', "x, y, z, rx, ry, rz"]),
         ('["y", "rz"]', "[]", ["motions", "expected 1 or more"]),
+        ('["y", "rz"]', '["y", "rz", "y"]', ["motions[2]", "once more"]),
         ('motions = ["y", "rz"]\n', "", ["a.interface", "104:+X", 'motions = ["y", "rz"]']),
         ('["y", "rz"]', '["y", "rz", "z"]', ["a.interface", "104:+Z"]),
         ('model = "full"', 'model = "bolt"\naxis = [0, 0, 1]', ["joint[1]", "bolts", '"full"']),

@@ -133,15 +133,22 @@ pub(crate) fn motions(study: &StudyText, list: Option<&[String]>) -> Result<Moti
     let Some(list) = list else {
         return Ok(Motions::ALL);
     };
-    let of = |(place, name): (usize, &String)| {
-        let known = Motion::ALL.into_iter().find(|dof| dof.symbol() == name);
-        study.needed(
-            format_args!("motions[{place}]"),
-            known,
-            format_args!("one of x, y, z, rx, ry, rz instead of {name:?}"),
-        )
-    };
-    let dofs: Vec<Motion> = list.iter().enumerate().map(of).collect::<Result<_, _>>()?;
+    let mut dofs = Vec::new();
+    for (place, name) in list.iter().enumerate() {
+        let key = format_args!("motions[{place}]").to_string();
+        let Some(dof) = Motion::ALL.into_iter().find(|dof| dof.symbol() == name) else {
+            let expected =
+                "one of x, y, z, rx, ry, rz; θ of a beam along x that bends along y is rz";
+            return study.refuse(key, format_args!("{name:?}"), expected);
+        };
+        study.ensure(
+            !dofs.contains(&dof),
+            key,
+            format_args!("{name:?} once more"),
+            "each motion once",
+        )?;
+        dofs.push(dof);
+    }
     Motions::of(&dofs).map_err(|source| StudyError::model(study.path(), Some("motions"), source))
 }
 

@@ -64,7 +64,7 @@ pub(super) fn section(found: &SpatialIdentification, motions: Motions) -> String
 }
 
 impl Block {
-    /// Its rows and columns that are among these motions.
+    /// A table of its rows and columns that are among these motions; nothing where there are none.
     fn html(
         &self,
         unit: &str,
@@ -72,14 +72,13 @@ impl Block {
         [matrix, deviations]: [&Matrix6<f64>; 2],
         motions: Motions,
     ) -> String {
-        let block = self;
         let own = |first: usize| -> Vec<usize> {
             let all = motions.rows().into_iter();
             all.filter(|motion| (first..first + 3).contains(motion))
                 .collect()
         };
-        let [own_rows, own_columns] = block.first.map(own);
-        let is_symmetric = block.first[0] == block.first[1];
+        let [own_rows, own_columns] = self.first.map(own);
+        let is_symmetric = self.first[0] == self.first[1];
         let places = || {
             own_rows
                 .iter()
@@ -94,48 +93,31 @@ impl Block {
         if largest == 0.0 {
             return format!(
                 "<div><p class=\"block\">{}</p><p>None in this model.</p></div>\n",
-                block.name
+                self.name
             );
         }
         let (power, scaled) = scaled(largest, unit);
         let scale = 10_f64.powi(power);
         let of = |dof: usize| [TRANSLATIONS, ROTATIONS].concat()[dof];
-        let rows: Vec<String> = own_rows.iter()
-        .map(|&i| {
-            let cells: String = own_columns.iter()
-                .map(|&j| {
-                    let at = (i, j);
-                    if is_symmetric && j < i {
-                        return "<td></td>".to_owned();
-                    }
-                    let (value, deviation) = (matrix[at], deviations[at]);
-                    if value == 0.0 && deviation == 0.0 {
-                        return "<td class=\"number\">0</td>".to_owned();
-                    }
-                    let name = match at.0 == at.1 {
-                        true => format!("{letter}_{}", of(at.0)),
-                        false => format!("{letter}_{}_{}", of(at.0), of(at.1)),
+        let row = |&i: &usize| {
+            let cells = own_columns.iter().map(|&j| match is_symmetric && j < i {
+                true => "<td></td>".to_owned(),
+                false => {
+                    let name = match i == j {
+                        true => format!("{letter}_{}", of(i)),
+                        false => format!("{letter}_{}_{}", of(i), of(j)),
                     };
-                    let most = (matrix[(at.0, at.0)] * matrix[(at.1, at.1)]).abs().sqrt();
-                    let is_determined = QUANTILE * deviation < most;
-                    let (class, [open, close]) = match is_determined {
-                        true => ("number", ["", ""]),
-                        false => ("number open", ["(", ")"]),
-                    };
-                    let [value, deviation] = [value, deviation].map(|number| number / scale);
-                    let digits = match deviation {
-                        0.0 => shown(value, 6),
-                        deviation => beside(value, deviation),
-                    };
-                    format!(
-                        "<td class=\"{class}\" title=\"{name}\">{open}{digits}{close}<br><small>± {}</small></td>",
-                        spread(deviation)
-                    )
-                })
-                .collect();
-            format!("<th scope=\"row\">{}</th>{cells}", of(i))
-        })
-        .collect();
+                    let most = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
+                    number(&name, [matrix[(i, j)], deviations[(i, j)], most], scale)
+                }
+            });
+            format!(
+                "<th scope=\"row\">{}</th>{}",
+                of(i),
+                cells.collect::<String>()
+            )
+        };
+        let rows: Vec<String> = own_rows.iter().map(row).collect();
         let headings: Vec<String> = std::iter::once(String::new())
             .chain(own_columns.iter().map(|&j| of(j).to_owned()))
             .collect();
@@ -147,9 +129,30 @@ impl Block {
         };
         format!(
             "<div><p class=\"block\">{}, such as {}: {scaled}</p>\n{}</div>\n",
-            block.name,
+            self.name,
             symbol(&example),
             table(&headings, &rows)
         )
     }
+}
+
+/// The cell of a number with its deviation, in units of `scale`; `most` is what couples its motions at most.
+fn number(name: &str, [value, deviation, most]: [f64; 3], scale: f64) -> String {
+    if value == 0.0 && deviation == 0.0 {
+        return "<td class=\"number\">0</td>".to_owned();
+    }
+    let is_determined = QUANTILE * deviation < most;
+    let (class, [open, close]) = match is_determined {
+        true => ("number", ["", ""]),
+        false => ("number open", ["(", ")"]),
+    };
+    let [value, deviation] = [value, deviation].map(|number| number / scale);
+    let digits = match deviation {
+        0.0 => shown(value, 6),
+        deviation => beside(value, deviation),
+    };
+    format!(
+        "<td class=\"{class}\" title=\"{name}\">{open}{digits}{close}<br><small>± {}</small></td>",
+        spread(deviation)
+    )
 }

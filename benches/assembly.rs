@@ -60,14 +60,14 @@ fn assemblies(criterion: &mut Criterion) {
             bencher.iter(|| AssemblySteps::new(black_box(&equations), step_s, TOLERANCE));
         });
         let mut steps = AssemblySteps::new(&equations, step_s, TOLERANCE).unwrap();
-        let mut state = steps.at_rest();
+        let mut underway = steps.at_rest();
         let mut count = 0_u32;
         group.bench_function("a step", |bencher| {
             bencher.iter(|| {
                 count += 1;
                 let load =
                     30.0 * (2.0 * std::f64::consts::PI * 700.0 * step_s * f64::from(count)).sin();
-                steps.step(&mut state, &[black_box(load)], &[0.0])
+                steps.step(&mut underway, &[black_box(load)], &[0.0])
             });
         });
         group.finish();

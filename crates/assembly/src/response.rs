@@ -366,7 +366,7 @@ impl AssemblyModel {
         let equations = self.equations()?;
         let mut steps = AssemblySteps::new(&equations, step_s, TOLERANCE)
             .ok_or(AssemblyError::Grows { time_s: step_s })?;
-        let mut state = steps.at_rest();
+        let mut underway = steps.at_rest();
         let outputs = self.output_rows();
         let size = self.size();
         let count = (duration_s / step_s).round().max(1.0) as u64;
@@ -380,6 +380,7 @@ impl AssemblyModel {
             let now = at(time_s);
             let mut row = vec![time_s];
             row.extend(&now);
+            let state = steps.coordinates().state(&underway);
             for output in outputs.row_iter() {
                 for part in [0, size] {
                     let motion = &state.motion[part..part + size];
@@ -402,7 +403,7 @@ impl AssemblyModel {
                     .zip(&now)
                     .map(|(next, now)| next - now)
                     .collect();
-                steps.step(&mut state, &now, &change);
+                steps.step(&mut underway, &now, &change);
                 if steps.was_too_long() {
                     return Err(AssemblyError::TooLong { time_s, step_s });
                 }

@@ -17,7 +17,8 @@
 //! | 8 + 1 | length of the latest communication step, and how often it came in a row |
 //! | 4 + 8 n | number of values, and all of them: by value reference, but for further laws of a kind where the joint has none; then
 //!   what is remembered beside them |
-//! | 4 + 8 l | number of numbers that the joint remembers, with those for event indicators, and these |
+//! | 4 + 8 l | number of numbers that the joint remembers, with those for event indicators and those from which an assembly goes
+//!   on, and these |
 //! | 9 + k + 8 m | which inputs have derivatives, for which step, of k inputs of an assembly which have, and the derivatives of
 //!   first to third order by input |
 //! | 8 | FNV-1a hash of all bytes before |
@@ -37,7 +38,7 @@ use crate::{
 };
 
 const MAGIC: [u8; 8] = *b"bjstate\0";
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 /// Number of an assembly, beside those of [`Kind`].
 const ASSEMBLY: u8 = 2;
 
@@ -230,9 +231,8 @@ impl Snapshot {
         for index in self.values.indices() {
             bytes.extend(self.values[index].to_le_bytes());
         }
-        let remembered = self.values.remembered();
-        bytes.extend((remembered.len() as u32).to_le_bytes());
-        bytes.extend(remembered.flat_map(f64::to_le_bytes));
+        bytes.extend((self.values.remembered_count() as u32).to_le_bytes());
+        bytes.extend(self.values.remembered().flat_map(f64::to_le_bytes));
         bytes.extend(self.inputs.to_bytes());
         bytes.extend(fnv1a(&bytes).to_le_bytes());
         bytes
@@ -408,7 +408,7 @@ impl<'a> Reader<'a> {
                 });
             }
         }
-        self.count(values.remembered().len())?;
+        self.count(values.remembered_count())?;
         for (place, number) in values.remembered_mut().enumerate() {
             *number = self.f64()?;
             if !number.is_finite() {

@@ -220,6 +220,8 @@ pub(crate) struct Roles(u16);
 const LIMITED: u16 = 256;
 /// Beside the bits of roles: what is calculated apart from other outputs, because it takes longer and few ask for it.
 const APART: u16 = 512;
+/// Beside the bits of roles: a state that goes on in other coordinates, and is told where somebody asks for it.
+const CARRIED: u16 = 1024;
 
 impl Roles {
     /// No role at all.
@@ -240,6 +242,8 @@ impl Roles {
     pub(crate) const LIMITED: Self = Self(LIMITED);
     /// What is calculated apart from other outputs.
     pub(crate) const APART: Self = Self(APART);
+    /// States that go on in other coordinates, and are told where somebody asks for them.
+    pub(crate) const CARRIED: Self = Self(CARRIED);
 
     /// Both sets together.
     pub(crate) const fn with(self, other: Self) -> Self {

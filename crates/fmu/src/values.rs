@@ -39,7 +39,70 @@ pub(crate) struct Values {
     joint: Vec<DofMemory>,
     /// Of each DOF of a joint with event indicators, for Model Exchange.
     ahead: Vec<Ahead>,
+    /// Of an assembly.
+    underway: Underway,
     inner: Inner,
+}
+
+/// How an assembly goes on from step to step: in coordinates of its own, from which its states follow where somebody asks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Underway {
+    /// Coordinates of the motion, then heat with the energy of the linear part (J), the preloads (N·m) that the coordinates belong
+    /// to, and at last 1 where these numbers are the state and the states that are listed may be old; 0 where it is these.
+    numbers: Vec<f64>,
+    /// Whether the states that are listed have been told since.
+    is_told: bool,
+}
+
+impl Underway {
+    fn of(variables: &Variables) -> Self {
+        let count = match variables {
+            Variables::Built(_) => 0,
+            Variables::Listed(listed) => listed.underway(),
+        };
+        Self {
+            numbers: vec![0.0; count],
+            is_told: false,
+        }
+    }
+
+    /// The numbers from which the assembly goes on; `None` where it goes on from the states that are listed.
+    #[inline]
+    pub(crate) fn numbers(&self) -> Option<&[f64]> {
+        let (last, numbers) = self.numbers.split_last()?;
+        (*last != 0.0).then_some(numbers)
+    }
+
+    /// Whether the states that are listed are old.
+    #[inline]
+    pub(crate) fn is_untold(&self) -> bool {
+        !self.is_told && self.numbers().is_some()
+    }
+
+    /// Goes on from these numbers, which `write` writes.
+    pub(crate) fn go_on(&mut self, write: impl FnOnce(&mut [f64])) {
+        if let Some((last, numbers)) = self.numbers.split_last_mut() {
+            write(numbers);
+            *last = 1.0;
+        }
+        self.is_told = false;
+    }
+
+    /// Takes note that the states that are listed are those of these numbers.
+    pub(crate) fn tell(&mut self) {
+        self.is_told = true;
+    }
+
+    /// Takes note that they are not, or need not be.
+    pub(crate) fn forget(&mut self) {
+        self.is_told = false;
+    }
+
+    /// Goes on from the states that are listed.
+    pub(crate) fn end(&mut self) {
+        self.numbers.fill(0.0);
+        self.is_told = false;
+    }
 }
 
 /// What event indicators of a DOF follow from: the direction in which the joint has moved since it last turned (1 or -1; 0
@@ -105,6 +168,7 @@ impl Values {
             listed: vec![0.0; self.listed.len()],
             joint: Vec::new(),
             ahead: Vec::new(),
+            underway: Underway::default(),
             inner: Inner::Committed,
         }
     }
@@ -124,6 +188,7 @@ impl Values {
             listed: vec![0.0; listed],
             joint: vec![DOF_AT_REST; remembering_dofs(variables)],
             ahead: vec![[0.0; 3]; turning_dofs(variables)],
+            underway: Underway::of(variables),
             inner: Inner::Committed,
         }
     }
@@ -429,19 +494,41 @@ impl Values {
         self.inner == Inner::Starting
     }
 
-    /// What is remembered of the joint, as numbers.
-    pub(crate) fn remembered(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+    /// How an assembly goes on.
+    #[inline]
+    pub(crate) fn underway(&self) -> &Underway {
+        &self.underway
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub(crate) fn underway_mut(&mut self) -> &mut Underway {
+        &mut self.underway
+    }
+
+    /// What the start-value file lists, to be written beside how an assembly goes on.
+    pub(crate) fn listed_beside_underway(&mut self) -> (&mut [f64], &Underway) {
+        (&mut self.listed, &self.underway)
+    }
+
+    /// What is remembered of the joint, and how an assembly goes on, as numbers.
+    pub(crate) fn remembered(&self) -> impl Iterator<Item = f64> + '_ {
         let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());
-        (0..joint.len() + ahead.len()).map(move |place| match joint.get(place) {
-            Some(&number) => number,
-            None => ahead[place - joint.len()],
-        })
+        let all = joint.iter().chain(ahead).chain(&self.underway.numbers);
+        all.copied()
+    }
+
+    /// How many numbers that are.
+    pub(crate) fn remembered_count(&self) -> usize {
+        let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());
+        joint.len() + ahead.len() + self.underway.numbers.len()
     }
 
     /// The same, to be written.
     pub(crate) fn remembered_mut(&mut self) -> impl Iterator<Item = &mut f64> {
         let joint = self.joint.as_flattened_mut().iter_mut();
-        joint.chain(self.ahead.as_flattened_mut())
+        let ahead = self.ahead.as_flattened_mut();
+        joint.chain(ahead).chain(&mut self.underway.numbers)
     }
 }
 
@@ -471,6 +558,7 @@ impl StartValues {
         }
         values.joint.fill(DOF_AT_REST);
         values.ahead.fill([0.0; 3]);
+        values.underway.end();
     }
 }
 

@@ -4,6 +4,8 @@
 //!
 //! Groups of unknowns θ_pq act as f_oi = Σ x_op θ_pq y_qi, with x and y of their own.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -32,151 +34,41 @@ impl Group {
     }
 }
 
-/// Real and imaginary parts apart: what is summed up then runs through the processor's registers side by side.
-#[derive(Clone, Default)]
-struct Parts {
-    re: Vec<f64>,
-    im: Vec<f64>,
-}
-
-impl Parts {
-    fn zeros(count: usize) -> Self {
-        Self {
-            re: vec![0.0; count],
-            im: vec![0.0; count],
-        }
-    }
-
-    fn at(&self, place: usize) -> Complex64 {
-        Complex64::new(self.re[place], self.im[place])
-    }
-}
-
-/// target += factor · values
-fn add(target: (&mut [f64], &mut [f64]), factor: Complex64, values: (&[f64], &[f64])) {
-    let targets = target.0.iter_mut().zip(target.1);
-    for ((re, im), (x, y)) in targets.zip(values.0.iter().zip(values.1)) {
-        *re += factor.re * x - factor.im * y;
-        *im += factor.re * y + factor.im * x;
-    }
-}
-
 /// Σ w conj(∂f/∂θ) ∂f/∂θ′ over all functions, for all pairs of unknowns.
+///
+/// Both sums are products of real matrices: over a row's columns H = Σ_i w conj(y_q) y_u, and over the rows
+/// Σ_o conj(x_p) x_r H, with real and imaginary parts one below the other.
 pub(crate) fn information(grid: &Grid, groups: &[Group]) -> DMatrix<Complex64> {
-    let (rows, columns) = grid.weights.shape();
-    let right: usize = groups.iter().map(|group| group.right.nrows()).sum();
-    // y of all groups, column by column
-    let mut y = Parts::zeros(right * columns);
-    let mut first = 0;
-    for group in groups {
-        for i in 0..columns {
-            for q in 0..group.right.nrows() {
-                let value = group.right[(q, i)];
-                (y.re[i * right + first + q], y.im[i * right + first + q]) = (value.re, value.im);
-            }
-        }
-        first += group.right.nrows();
-    }
-    let pairs: Vec<(usize, usize)> = (0..groups.len())
-        .flat_map(|s| (s..groups.len()).map(move |t| (s, t)))
-        .collect();
-    let mut sums: Vec<Parts> = pairs
-        .iter()
-        .map(|&(s, t)| Parts::zeros(groups[s].count() * groups[t].count()))
-        .collect();
-    let firsts: Vec<usize> = groups
-        .iter()
-        .scan(0, |next, group| {
+    let of_columns = by_columns(grid, groups);
+    let firsts = |of: &dyn Fn(&Group) -> usize| -> Vec<usize> {
+        let starts = groups.iter().scan(0, |next, group| {
             let first = *next;
-            *next += group.right.nrows();
+            *next += of(group);
             Some(first)
-        })
-        .collect();
-    let mut partial = Parts::zeros(right * right);
-    let mut block = Parts::default();
-    for o in 0..rows {
-        // Σ_i w conj(y_q) y_u, q ≤ u
-        partial.re.fill(0.0);
-        partial.im.fill(0.0);
-        for i in 0..columns {
-            let weight = grid.weights[(o, i)];
-            if weight == 0.0 {
-                continue;
-            }
-            let own = i * right..(i + 1) * right;
-            let (re, im) = (&y.re[own.clone()], &y.im[own]);
-            for q in 0..right {
-                let factor = Complex64::new(weight * re[q], -weight * im[q]);
-                if factor == Complex64::ZERO {
-                    continue;
-                }
-                let tail = q * right + q..(q + 1) * right;
-                add(
-                    (&mut partial.re[tail.clone()], &mut partial.im[tail]),
-                    factor,
-                    (&re[q..], &im[q..]),
-                );
-            }
-        }
-        for q in 0..right {
-            for u in 0..q {
-                partial.re[q * right + u] = partial.re[u * right + q];
-                partial.im[q * right + u] = -partial.im[u * right + q];
-            }
-        }
-        for (&(s, t), sum) in pairs.iter().zip(&mut sums) {
-            let (one, other) = (&groups[s], &groups[t]);
-            let (height, width) = (one.right.nrows(), other.right.nrows());
-            block.re.clear();
-            block.im.clear();
-            for q in 0..height {
-                let from = (firsts[s] + q) * right + firsts[t];
-                block.re.extend_from_slice(&partial.re[from..from + width]);
-                block.im.extend_from_slice(&partial.im[from..from + width]);
-            }
-            let size = height * width;
-            for p in 0..one.left.ncols() {
-                let conjugate = one.left[(o, p)].conj();
-                if conjugate == Complex64::ZERO {
-                    continue;
-                }
-                // of a group with itself the other half follows
-                let least = if s == t { p } else { 0 };
-                for r in least..other.left.ncols() {
-                    let factor = conjugate * other.left[(o, r)];
-                    if factor == Complex64::ZERO {
-                        continue;
-                    }
-                    let own = (p * other.left.ncols() + r) * size;
-                    add(
-                        (&mut sum.re[own..own + size], &mut sum.im[own..own + size]),
-                        factor,
-                        (&block.re, &block.im),
-                    );
-                }
-            }
-        }
-    }
-    gathered(groups, &pairs, &sums)
-}
-
-/// The sums of each pair of groups as one matrix.
-fn gathered(groups: &[Group], pairs: &[(usize, usize)], sums: &[Parts]) -> DMatrix<Complex64> {
+        });
+        starts.collect()
+    };
+    let places = firsts(&|group| group.right.nrows());
+    let unknowns = firsts(&Group::count);
     let count = groups.iter().map(Group::count).sum();
     let mut all = DMatrix::zeros(count, count);
-    let first = |group: usize| -> usize { groups[..group].iter().map(Group::count).sum() };
-    for (&(s, t), sum) in pairs.iter().zip(sums) {
-        let (one, other) = (&groups[s], &groups[t]);
-        let (height, width) = (one.right.nrows(), other.right.nrows());
-        let (row, column) = (first(s), first(t));
-        for p in 0..one.left.ncols() {
-            let least = if s == t { p } else { 0 };
-            for r in least..other.left.ncols() {
-                let own = (p * other.left.ncols() + r) * height * width;
+    for (s, one) in groups.iter().enumerate() {
+        for (t, other) in groups.iter().enumerate().skip(s) {
+            let (height, width) = (one.right.nrows(), other.right.nrows());
+            let sums = over_rows(
+                &by_rows([one, other], s == t),
+                &of_columns,
+                [places[s]..places[s] + height, places[t]..places[t] + width],
+            );
+            let half = sums.nrows() / 2;
+            let pairs = pairs([one, other], s == t);
+            for (pair, [p, r]) in pairs.enumerate() {
                 for q in 0..height {
                     for u in 0..width {
-                        let value = sum.at(own + q * width + u);
-                        let (i, j) = (row + p * height + q, column + r * width + u);
+                        let place = q * width + u;
+                        let value = Complex64::new(sums[(pair, place)], sums[(half + pair, place)]);
+                        let i = unknowns[s] + p * height + q;
+                        let j = unknowns[t] + r * width + u;
                         all[(i, j)] = value;
                         all[(j, i)] = value.conj();
                     }
@@ -185,6 +77,81 @@ fn gathered(groups: &[Group], pairs: &[(usize, usize)], sums: &[Parts]) -> DMatr
         }
     }
     all
+}
+
+/// H of each row: real parts, and beside them imaginary ones, right × 2·right of all groups.
+fn by_columns(grid: &Grid, groups: &[Group]) -> Vec<DMatrix<f64>> {
+    let (rows, columns) = grid.weights.shape();
+    let right: usize = groups.iter().map(|group| group.right.nrows()).sum();
+    // (Re y, Im y), and what it is multiplied by for real and imaginary parts
+    let mut own = DMatrix::zeros(right, 2 * columns);
+    let mut others = DMatrix::zeros(2 * columns, 2 * right);
+    let mut first = 0;
+    for group in groups {
+        for (q, row) in group.right.row_iter().enumerate() {
+            let q = first + q;
+            for (i, y) in row.iter().enumerate() {
+                (own[(q, i)], own[(q, columns + i)]) = (y.re, y.im);
+                (others[(i, q)], others[(columns + i, q)]) = (y.re, y.im);
+                (others[(i, right + q)], others[(columns + i, right + q)]) = (y.im, -y.re);
+            }
+        }
+        first += group.right.nrows();
+    }
+    let mut weighted = own.clone();
+    let of_row = |o: usize| {
+        for i in 0..columns {
+            let weight = grid.weights[(o, i)];
+            for column in [i, columns + i] {
+                weighted.set_column(column, &(own.column(column) * weight));
+            }
+        }
+        &weighted * &others
+    };
+    (0..rows).map(of_row).collect()
+}
+
+/// The pairs (p, r) of two groups; of a group with itself the other half follows.
+fn pairs([one, other]: [&Group; 2], is_one: bool) -> impl Iterator<Item = [usize; 2]> {
+    let (height, width) = (one.left.ncols(), other.left.ncols());
+    let from = move |p: usize| if is_one { p } else { 0 };
+    (0..height).flat_map(move |p| (from(p)..width).map(move |r| [p, r]))
+}
+
+/// conj(x_p) x_r of all rows, 2·pairs × 2·rows: what makes Re and, below, Im of a product from the real and imaginary parts of the
+/// other factor.
+fn by_rows([one, other]: [&Group; 2], is_one: bool) -> DMatrix<f64> {
+    let rows = one.left.nrows();
+    let count = pairs([one, other], is_one).count();
+    let mut factors = DMatrix::zeros(2 * count, 2 * rows);
+    for (pair, [p, r]) in pairs([one, other], is_one).enumerate() {
+        for o in 0..rows {
+            let factor = one.left[(o, p)].conj() * other.left[(o, r)];
+            factors[(pair, o)] = factor.re;
+            factors[(pair, rows + o)] = -factor.im;
+            factors[(count + pair, o)] = factor.im;
+            factors[(count + pair, rows + o)] = factor.re;
+        }
+    }
+    factors
+}
+
+/// Σ_o factor · H for the places (q, u) of H: 2·pairs × places, real parts and below imaginary ones.
+fn over_rows(
+    factors: &DMatrix<f64>,
+    of_columns: &[DMatrix<f64>],
+    [rows, columns]: [Range<usize>; 2],
+) -> DMatrix<f64> {
+    let (count, width) = (of_columns.len(), columns.len());
+    let mut parts = DMatrix::zeros(2 * count, rows.len() * width);
+    for (o, own) in of_columns.iter().enumerate() {
+        let right = own.nrows();
+        for (place, mut column) in parts.column_iter_mut().enumerate() {
+            let (q, u) = (rows.start + place / width, columns.start + place % width);
+            (column[o], column[count + o]) = (own[(q, u)], own[(q, right + u)]);
+        }
+    }
+    factors * parts
 }
 
 /// Σ w conj(∂f/∂θ) e over all functions, for residuals e (rows × columns).

@@ -1,9 +1,9 @@
 //! Damped Gauss–Newton (Levenberg and Marquardt): plain steps diverge from a stiffness 10 % off.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::error::SpatialError;
-use crate::normal::{Deviations, Normal, cost};
+use crate::normal::{Deviations, Normal, bend, cost};
 use crate::problem::{Problem, Unknowns};
 
 /// Steps after which a search has not converged.
@@ -28,6 +28,9 @@ pub(crate) enum Effort {
     Full,
 }
 
+/// What bends a step, in parts of its length at most: where it is more, the second derivatives do not say enough.
+const BENT_MOST: f64 = 0.375;
+
 /// Damping that no step can be helped with.
 const DAMPING_MAX: f64 = 1e12;
 
@@ -47,6 +50,11 @@ pub(crate) trait Squares {
 
     /// Its value where a step would lead to.
     fn cost(&mut self, unknowns: &Unknowns) -> Result<f64, SpatialError>;
+
+    /// What bends a step where the functions are far from linear in it, if that is worth while.
+    fn bend(&self, _unknowns: &Unknowns, _step: &DVector<f64>) -> Option<DVector<f64>> {
+        None
+    }
 }
 
 /// That of functions of the assembly between substructures that are exact.
@@ -66,6 +74,13 @@ impl Squares for Exact<'_> {
 
     fn cost(&mut self, unknowns: &Unknowns) -> Result<f64, SpatialError> {
         cost(self.problem, unknowns, self.deviations)
+    }
+
+    fn bend(&self, unknowns: &Unknowns, step: &DVector<f64>) -> Option<DVector<f64>> {
+        // the joint alone is near its bottom after a few straight steps
+        let is_narrow = self.problem.error_count() > 0;
+        let of = || bend(self.problem, unknowns, step, self.deviations).ok();
+        is_narrow.then(of).flatten()
     }
 }
 
@@ -122,14 +137,12 @@ impl Fit {
         for _ in 0..steps_max {
             let mut moved = None;
             while damping < DAMPING_MAX {
-                if let Some(step) = trust.step(squares.problem(), &unknowns, &normal, damping) {
-                    let trial = Unknowns(&unknowns.0 + step);
-                    let found = squares.cost(&trial).unwrap_or(f64::INFINITY);
-                    if found <= normal.cost {
-                        moved = Some((trial, found));
-                        damping = (0.1 * damping).max(1e-12);
-                        break;
-                    }
+                if let Some(bounded) = trust.at(squares.problem(), &unknowns, &normal, damping) {
+                    moved = tried(squares, &unknowns, &normal, &bounded);
+                }
+                if moved.is_some() {
+                    damping = (0.1 * damping).max(1e-12);
+                    break;
                 }
                 damping *= 10.0;
             }
@@ -182,16 +195,17 @@ impl Trust {
         }
     }
 
-    fn step(
+    /// Normal equations with this damping; `None` where they have no solution.
+    fn at(
         self,
         problem: &Problem,
         unknowns: &Unknowns,
         normal: &Normal,
         damping: f64,
-    ) -> Option<DVector<f64>> {
+    ) -> Option<Bounded> {
         let scale = scale(&normal.information);
         let mut scaled = scaled(&normal.information, &scale);
-        let expected = match self {
+        let metric = match self {
             Self::Information => DVector::repeat(scale.len(), 1.0),
             Self::Expectation => problem
                 .expected(unknowns)
@@ -199,12 +213,59 @@ impl Trust {
                 .zip_map(&scale, |expected, scale| (scale / expected).powi(2)),
         };
         for place in 0..scale.len() {
-            scaled[(place, place)] += damping * expected[place];
+            scaled[(place, place)] += damping * metric[place];
         }
-        let right = normal.descent.component_mul(&scale);
-        let step = scaled.cholesky()?.solve(&right).component_mul(&scale);
-        step.iter().all(|x| x.is_finite()).then_some(step)
+        let root = scaled.cholesky()?;
+        Some(Bounded {
+            scale,
+            metric,
+            root,
+        })
     }
+}
+
+/// Normal equations with damping.
+struct Bounded {
+    scale: DVector<f64>,
+    /// Of unknowns in that scale.
+    metric: DVector<f64>,
+    root: Cholesky<f64, Dyn>,
+}
+
+impl Bounded {
+    fn solve(&self, right: &DVector<f64>) -> Option<DVector<f64>> {
+        let scaled = self.root.solve(&right.component_mul(&self.scale));
+        let own = scaled.component_mul(&self.scale);
+        own.iter().all(|x| x.is_finite()).then_some(own)
+    }
+
+    /// Length of a step in the metric in which steps are bounded.
+    fn length(&self, step: &DVector<f64>) -> f64 {
+        let scaled = step.component_div(&self.scale);
+        scaled.component_mul(&scaled).dot(&self.metric).sqrt()
+    }
+}
+
+/// Where a step leads, and the cost there, if that is no higher. In a narrow valley a straight step soon runs into its side: there it
+/// is bent as the functions bend along it (Transtrum and Sethna's geodesic acceleration).
+fn tried(
+    squares: &mut impl Squares,
+    unknowns: &Unknowns,
+    normal: &Normal,
+    bounded: &Bounded,
+) -> Option<(Unknowns, f64)> {
+    let straight = bounded.solve(&normal.descent)?;
+    // ½ a with (F + λD) a = −Jᵀ Σ⁻¹ f″
+    let bend = squares.bend(unknowns, &straight);
+    let bend = bend.and_then(|right| Some(bounded.solve(&right)? * 0.5));
+    let bend = bend.filter(|bend| bounded.length(bend) <= BENT_MOST * bounded.length(&straight));
+    let bent = bend.map(|bend| &straight + bend);
+    let mut steps = bent.into_iter().chain([straight]);
+    steps.find_map(|step| {
+        let trial = Unknowns(&unknowns.0 + step);
+        let found = squares.cost(&trial).ok()?;
+        (found <= normal.cost).then_some((trial, found))
+    })
 }
 
 /// 1/√F_ii; of what nothing tells, 1.

@@ -9,7 +9,7 @@ use crate::assembled::{Assembled, Line};
 use crate::dyads::{Grid, descent, information, squares};
 use crate::error::SpatialError;
 use crate::parallel::over_lines;
-use crate::patterns::{Patterns, Sums};
+use crate::patterns::{Patterns, Slopes, Sums};
 use crate::problem::{Problem, Unknowns};
 
 /// Weighted squares and what they say of a step.
@@ -69,6 +69,50 @@ pub(crate) fn add_priors(problem: &Problem, unknowns: &Unknowns, normal: &mut No
         normal.descent[place] -= weight * error;
         normal.cost += weight * error * error;
     }
+}
+
+/// Part of a step to either side at which second differences are taken.
+const ASIDE: f64 = 0.1;
+
+/// −2 Re Jᴴ Σ⁻¹ f″, with f″ the second derivative of the functions along a step: what bends a way that goes on as the functions do.
+pub(crate) fn bend(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    step: &DVector<f64>,
+    deviations: &Deviations,
+) -> Result<DVector<f64>, SpatialError> {
+    let here = Assembled::new(problem, unknowns)?;
+    let aside = |part: f64| Unknowns(&unknowns.0 + step * part);
+    let (behind, ahead) = (aside(-ASIDE), aside(ASIDE));
+    let [behind, ahead] = [
+        Assembled::new(problem, &behind)?,
+        Assembled::new(problem, &ahead)?,
+    ];
+    let grid = Grid::new(problem.weights(deviations));
+    let patterns = Patterns::of(problem, Some(&here));
+    let parts = over_lines(problem.frequency_hz.len(), |lines| {
+        let mut slopes = Slopes::default();
+        for line in lines {
+            let found = here.line(line)?;
+            let [behind, ahead] = [behind.line(line)?, ahead.line(line)?];
+            let (rows, columns) = (found.by_joint_loads.nrows(), found.joint_motions.ncols());
+            let mut bent = DMatrix::zeros(rows, columns);
+            for (n, one) in problem.observed.iter().enumerate() {
+                let second = behind.functions[n] + ahead.functions[n] - 2.0 * found.functions[n];
+                bent[(one.at[0], one.at[1])] = -second / (ASIDE * ASIDE);
+            }
+            let groups = here.dyads(line, &found);
+            slopes.add_line(
+                problem.omega(line),
+                36 * problem.links.sought().len(),
+                &descent(&grid, &groups, &bent),
+            );
+        }
+        Ok::<Slopes, SpatialError>(slopes)
+    })?;
+    let mut sums = Slopes::default();
+    parts.iter().for_each(|part| sums.add(part));
+    Ok(patterns.descent(problem.count(), &sums))
 }
 
 impl Normal {

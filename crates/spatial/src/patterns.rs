@@ -84,11 +84,36 @@ pub(crate) struct Sums {
     tilted: DMatrix<f64>,
     /// Σ ω² Re M of the joints' dyads.
     curved: DMatrix<f64>,
-    /// Σ Re s, s = Σ w conj(∂f/∂θ) e.
-    slopes: DVector<f64>,
-    /// Σ ω Im s of the joints' dyads.
-    tilted_slopes: DVector<f64>,
+    slopes: Slopes,
     squares: f64,
+}
+
+/// Sums over lines of s = Σ w conj(∂f/∂θ) e for all dyads.
+#[derive(Clone, Default)]
+pub(crate) struct Slopes {
+    /// Σ Re s
+    flat: DVector<f64>,
+    /// Σ ω Im s of the joints' dyads.
+    tilted: DVector<f64>,
+}
+
+impl Slopes {
+    /// A line with s; the first dyads are those of the joints.
+    pub(crate) fn add_line(&mut self, omega: f64, of_joints: usize, slopes: &DVector<Complex64>) {
+        self.add(&Self {
+            flat: slopes.map(|sum| sum.re),
+            tilted: slopes.rows(0, of_joints).map(|sum| omega * sum.im),
+        });
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        if self.flat.is_empty() {
+            self.clone_from(other);
+        } else if !other.flat.is_empty() {
+            self.flat += &other.flat;
+            self.tilted += &other.tilted;
+        }
+    }
 }
 
 impl Sums {
@@ -106,28 +131,24 @@ impl Sums {
             flat: products.map(|sum| sum.re),
             tilted: own.map(|sum| omega * sum.im),
             curved: own.columns(0, of_joints).map(|sum| omega * omega * sum.re),
-            slopes: slopes.map(|sum| sum.re),
-            tilted_slopes: slopes.rows(0, of_joints).map(|sum| omega * sum.im),
+            slopes: Slopes::default(),
             squares,
         });
+        self.slopes.add_line(omega, of_joints, slopes);
     }
 
     pub(crate) fn add(&mut self, other: &Self) {
-        if self.slopes.is_empty() {
+        self.slopes.add(&other.slopes);
+        self.squares += other.squares;
+        if self.flat.is_empty() {
             self.flat = other.flat.clone();
             self.tilted = other.tilted.clone();
             self.curved = other.curved.clone();
-            self.slopes = other.slopes.clone();
-            self.tilted_slopes = other.tilted_slopes.clone();
-            self.squares = other.squares;
-            return;
+        } else {
+            self.flat += &other.flat;
+            self.tilted += &other.tilted;
+            self.curved += &other.curved;
         }
-        self.flat += &other.flat;
-        self.tilted += &other.tilted;
-        self.curved += &other.curved;
-        self.slopes += &other.slopes;
-        self.tilted_slopes += &other.tilted_slopes;
-        self.squares += other.squares;
     }
 }
 
@@ -209,13 +230,11 @@ impl Patterns {
                 normal.information[(damping, other)] = 2.0 * tilted[(k, l)];
                 normal.information[(damping, of_other)] = 2.0 * curved[(k, l)];
             }
-            normal.descent[stiffness] = -2.0 * joints[k].sum(&sums.slopes);
-            normal.descent[damping] = -2.0 * joints[k].sum(&sums.tilted_slopes);
         }
         let flat = combined(joints, &sums.flat, errors);
         let tilted = combined(joints, &sums.tilted, errors);
         let own = combined(errors, &sums.flat, errors);
-        for (n, error) in errors.iter().enumerate() {
+        for n in 0..errors.len() {
             let place = self.first_error + n;
             for (k, &[stiffness, damping]) in self.places.iter().enumerate() {
                 for (row, value) in [(stiffness, flat[(k, n)]), (damping, tilted[(k, n)])] {
@@ -226,9 +245,22 @@ impl Patterns {
             for m in 0..errors.len() {
                 normal.information[(place, self.first_error + m)] = 2.0 * own[(n, m)];
             }
-            normal.descent[place] = 2.0 * error.sum(&sums.slopes);
         }
+        normal.descent = self.descent(count, &sums.slopes);
         normal
+    }
+
+    /// 2 Re Jᴴ Σ⁻¹ e of all unknowns.
+    pub(crate) fn descent(&self, count: usize, sums: &Slopes) -> DVector<f64> {
+        let mut descent = DVector::zeros(count);
+        for (own, &[stiffness, damping]) in self.of_joints.iter().zip(&self.places) {
+            descent[stiffness] = -2.0 * own.sum(&sums.flat);
+            descent[damping] = -2.0 * own.sum(&sums.tilted);
+        }
+        for (n, error) in self.of_set_up.iter().enumerate() {
+            descent[self.first_error + n] = 2.0 * error.sum(&sums.flat);
+        }
+        descent
     }
 
     /// Eᵀ M E of sums over the dyads.

@@ -31,6 +31,8 @@ struct At<'a, N, M> {
     law: Option<&'a JointLaw<SPACE_COUNT, N>>,
     /// Relative motion of its DOFs, and the rate.
     relative: Motion<SPACE_COUNT, N>,
+    /// Place of its first DOF among those of all joints.
+    first: usize,
     memory: &'a [DofMemory<M>],
 }
 
@@ -59,12 +61,31 @@ impl Assembly {
         memory: &[DofMemory<M>],
         loads: &mut [N],
     ) {
-        let mut rest = loads;
-        self.each(motion, memory, |at| {
-            let (own, others) = std::mem::take(&mut rest).split_at_mut(at.joint.laws.len());
-            at.loads(own);
-            rest = others;
-        });
+        self.each(motion, memory, |at| at.loads_among(loads));
+    }
+
+    /// The same at relative motions: `relative` has those of all joints' DOFs, joint by joint, and then their rates.
+    pub fn joint_loads_at(
+        &self,
+        relative: &[f64],
+        laws: &[JointLaw<SPACE_COUNT>],
+        memory: &[DofMemory],
+        loads: &mut [f64],
+    ) {
+        let (displacements, velocities) = relative.split_at(relative.len() / 2);
+        let seen = |place: usize, _: &[f64]| [displacements[place], velocities[place]];
+        self.each_seen(laws, memory, seen, |at| at.loads_among(loads));
+    }
+
+    /// Rows of S of all joints, joint by joint.
+    #[must_use]
+    pub fn relative(&self) -> Matrix {
+        let all: Vec<&[f64]> = self
+            .joints
+            .iter()
+            .flat_map(|joint| rows(&joint.relative))
+            .collect();
+        Matrix::from_fn(all.len(), self.size(), |i, j| all[i][j])
     }
 
     /// q̈ = B u − Sᵀ f − C q̇ − Ω² q, of the joints' loads f.
@@ -164,21 +185,37 @@ impl Assembly {
         &'a self,
         motion: AssemblyMotion<'a, N>,
         memory: &'a [DofMemory<M>],
+        of: impl FnMut(At<'a, N, M>),
+    ) {
+        let seen = |_: usize, row: &[f64]| [motion.coordinates, motion.rates].map(|q| sum(row, q));
+        self.each_seen(motion.laws, memory, seen, of);
+    }
+
+    /// The same with relative displacement and rate of each DOF by its place among all of them and its row of S.
+    fn each_seen<'a, N: Number + 'a, M>(
+        &'a self,
+        laws: &'a [JointLaw<SPACE_COUNT, N>],
+        memory: &'a [DofMemory<M>],
+        seen: impl Fn(usize, &[f64]) -> [N; 2],
         mut of: impl FnMut(At<'a, N, M>),
     ) {
         let mut rest = memory;
-        let mut laws = motion.laws.iter();
+        let mut laws = laws.iter();
+        let mut first = 0;
         for joint in &self.joints {
             let mut at = At {
                 joint,
                 law: joint.over_preload.as_ref().and_then(|_| laws.next()),
                 relative: Motion::REST,
+                first,
                 memory: rest,
             };
             for (dof, row) in rows(&joint.relative).take(SPACE_COUNT).enumerate() {
-                at.relative.displacement[dof] = sum(row, motion.coordinates);
-                at.relative.velocity[dof] = sum(row, motion.rates);
+                let [r, rate] = seen(first + dof, row);
+                at.relative.displacement[dof] = r;
+                at.relative.velocity[dof] = rate;
             }
+            first += joint.laws.len();
             rest = rest.get(joint.with_laws().count()..).unwrap_or_default();
             of(at);
         }
@@ -198,6 +235,13 @@ impl<N: Number, M> At<'_, N, M> {
 }
 
 impl<N: Number, M: Number + Into<N>> At<'_, N, M> {
+    /// Writes its loads where they stand among those of all joints.
+    fn loads_among(&self, all: &mut [N]) {
+        if let Some(own) = all.get_mut(self.first..self.first + self.joint.laws.len()) {
+            self.loads(own);
+        }
+    }
+
     /// K r + C ṙ + f
     fn loads(&self, loads: &mut [N]) {
         let linear = self.law.map(|law| law.linear.load(&self.relative));

@@ -1,13 +1,12 @@
 //! Everything that steps of one length need, and of its halves: prepared once, so that a step allocates nothing.
 
 use super::{
+    coordinates::Parts,
     lobatto::THETA,
-    matrix::Matrix,
-    modal::Modal,
+    modal,
     modes::Frame,
-    propagator::{Blocks, Going, Propagator, scale},
+    propagator::{Blocks, Propagator},
     stages::Stages,
-    system::System,
 };
 
 /// How often a step is halved where the joints are too stiff for it.
@@ -25,111 +24,55 @@ pub(super) struct Rung {
     pub(super) stages: Option<Stages>,
 }
 
-/// The lengths h, h/2, h/4 …
+/// The lengths h, h/2, h/4 …; of an assembly whose joints have no law beside the linear one, the first alone.
 #[derive(Clone, Debug)]
 pub(super) struct Ladder {
-    /// The longest one in q and q̇, the halves in the frame's coordinates if there is one.
     pub(super) rungs: Vec<Rung>,
-    pub(super) frame: Option<Frame>,
-    /// What is seen of q and q̇, and of the coordinates of the halves.
-    sights: [Sight; 2],
-}
-
-/// What joints and loads see of the state, in the coordinates of the ladder.
-#[derive(Clone, Debug)]
-pub(super) struct Sight {
-    /// Relative displacements of the DOFs with laws, and then their rates: 2d × 2n.
-    pub(super) relative: Matrix,
-    /// Displacements at the loads and of these DOFs: (m + d) × 2n.
-    pub(super) places: Matrix,
 }
 
 impl Ladder {
-    /// What is seen of a state at a level.
-    pub(super) fn sight(&self, level: usize) -> &Sight {
-        let [longest, halves] = &self.sights;
-        if level == 0 { longest } else { halves }
-    }
-
     /// For steps of `length_s` (s); `None` where the exponential is not finite.
-    pub(super) fn new(system: &System, length_s: f64) -> Option<Self> {
-        if system.forces() == 0 {
-            let rung = Rung {
+    pub(super) fn new(parts: &Parts, length_s: f64) -> Option<Self> {
+        let rungs = match (&parts.frame, parts.system.forces()) {
+            (Some(frame), forces) => Self::in_modes(parts, frame, length_s, forces > 0)?,
+            (None, 0) => vec![Rung {
                 length_s,
-                whole: Propagator::new(system, length_s, 0)?.blocks(),
+                whole: Propagator::new(&parts.system, length_s, 0)?.blocks(),
                 stages: None,
-            };
-            return Some(Self {
-                rungs: vec![rung],
-                frame: None,
-                sights: [Sight::of(system), Sight::of(system)],
-            });
-        }
-        let frame = Frame::of(system).filter(|frame| frame.is_whole(system, &scale(system)));
-        match frame {
-            Some(frame) => Self::in_modes(system, frame, length_s),
-            None => Self::by_exponentials(system, length_s),
-        }
+            }],
+            (None, _) => Self::by_exponentials(parts, length_s)?,
+        };
+        Some(Self { rungs })
     }
 
     /// Mode by mode.
-    fn in_modes(system: &System, frame: Frame, length_s: f64) -> Option<Self> {
-        let plain = Sight::of(system);
-        let modal = Modal::of(system, &frame, &plain);
-        let seen = |rows: &Matrix| rows.product(frame.out_of_modes());
-        let sight = Sight {
-            relative: seen(&plain.relative),
-            places: seen(&plain.places),
-        };
-        let outside = |rung: &Rung| {
-            let seen = |rows: &Matrix| rows.product(frame.to_modes());
-            let by = |rows: &Matrix| rows.product(&frame.out_of_modes().transposed());
-            let stages = rung.stages.as_ref().map(|stages| Stages {
-                by_state: seen(&stages.by_state),
-                ..stages.clone()
-            });
-            Rung {
-                length_s: rung.length_s,
-                stages,
-                whole: Blocks {
-                    state: Going::Whole(seen(&rung.whole.state.seen_by(frame.out_of_modes()))),
-                    by: rung.whole.by.each_ref().map(by),
-                    moments: rung.whole.moments.each_ref().map(seen),
-                    moments_by: rung.whole.moments_by.clone(),
-                },
-            }
-        };
-        let whole = |level: i32| modal.blocks(length_s * 0.5_f64.powi(level));
-        let mut rungs = Vec::with_capacity(HALVINGS + 1);
-        let mut longer = whole(0);
-        for level in 0..=HALVINGS as i32 {
+    fn in_modes(parts: &Parts, frame: &Frame, length_s: f64, has_laws: bool) -> Option<Vec<Rung>> {
+        let blocks = |length_s: f64| modal::blocks(parts, frame, length_s);
+        let halvings = if has_laws { HALVINGS } else { 0 };
+        let mut rungs = Vec::with_capacity(halvings + 1);
+        let mut longer = blocks(length_s);
+        for level in 0..=halvings as i32 {
             let length_s = length_s * 0.5_f64.powi(level);
-            let half = whole(level + 1);
-            let [second, fourth] = [THETA[1], THETA[3]].map(|theta| modal.blocks(theta * length_s));
-            let to_nodes = [&second, &half, &fourth, &longer];
+            let half = blocks(0.5 * length_s);
+            let stages = has_laws.then(|| {
+                let [second, fourth] = [THETA[1], THETA[3]].map(|theta| blocks(theta * length_s));
+                let to_nodes = [&second, &half, &fourth, &longer];
+                Stages::of(&parts.system, &parts.sight.relative, to_nodes)
+            });
             rungs.push(Rung {
                 length_s,
-                stages: Some(Stages::of(system, &sight.relative, to_nodes)),
+                stages,
                 whole: longer,
             });
             longer = half;
         }
-        if !rungs.iter().all(|rung| rung.whole.state.is_finite()) {
-            return None;
-        }
-        if let Some(longest) = rungs.first_mut() {
-            *longest = outside(longest);
-        }
-        Some(Self {
-            rungs,
-            sights: [plain, sight],
-            frame: Some(frame),
-        })
+        let are_finite = rungs.iter().all(|rung| rung.whole.state.is_finite());
+        are_finite.then_some(rungs)
     }
 
     /// By the exponentials of the shortest lengths, squared again and again: of whatever has no modes of its own.
-    fn by_exponentials(system: &System, length_s: f64) -> Option<Self> {
-        let sight = Sight::of(system);
+    fn by_exponentials(parts: &Parts, length_s: f64) -> Option<Vec<Rung>> {
+        let system = &parts.system;
         let mut rungs = Vec::with_capacity(HALVINGS + 1);
         let start = |share: f64| Propagator::new(system, share * length_s, HALVINGS + 1);
         let mut propagators = [start(THETA[1])?, start(1.0)?, start(THETA[3])?];
@@ -140,36 +83,13 @@ impl Ladder {
             let to_nodes = [&second, &half, &fourth, &whole];
             rungs.push(Rung {
                 length_s: length_s * 0.5_f64.powi(level),
-                stages: Some(Stages::of(system, &sight.relative, to_nodes)),
+                stages: Some(Stages::of(system, &parts.sight.relative, to_nodes)),
                 whole: whole.clone(),
             });
             half = whole;
         }
         rungs.reverse();
-        Some(Self {
-            rungs,
-            sights: [sight.clone(), sight],
-            frame: None,
-        })
-    }
-}
-
-impl Sight {
-    pub(super) fn of(system: &System) -> Self {
-        let (n, m, d) = (system.size, system.loads, system.forces());
-        let mut relative = Matrix::zeros(2 * d, 2 * n);
-        relative.set_block([0, 0], &system.rows);
-        relative.set_block([d, n], &system.rows);
-        let mut places = Matrix::zeros(m + d, 2 * n);
-        places.set_block([0, 0], &system.load_rows);
-        places.set_block([m, 0], &system.rows);
-        Self { relative, places }
-    }
-
-    /// Relative displacements and their rates at a state.
-    pub(super) fn relative(&self, state: &[f64], relative: &mut [f64]) {
-        relative.fill(0.0);
-        self.relative.add_product_to(state, relative);
+        Some(rungs)
     }
 }
 

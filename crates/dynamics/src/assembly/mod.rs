@@ -3,6 +3,7 @@
 //! The linear part is propagated exactly, at any length of step; only the joints' own frequency limits the step, and that only
 //! where their laws are not linear.
 
+mod coordinates;
 mod equations;
 mod exponential;
 mod ladder;
@@ -21,9 +22,10 @@ mod system;
 #[cfg(test)]
 mod tests;
 
+pub use coordinates::AssemblyCoordinates;
 pub use equations::AssemblyMotion;
 pub use matrix::Matrix;
 pub use preload::LawOverPreload;
-pub use state::AssemblyState;
+pub use state::{AssemblyState, Underway};
 pub use steps::{AssemblySteps, TOLERANCE};
 pub use system::{Assembly, AssemblyJoint};

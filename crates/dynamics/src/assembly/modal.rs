@@ -1,12 +1,11 @@
 //! The blocks of a step mode by mode: each takes a number of its own, e^{hλ} or φ_k(hλ), and no matrix.
 
 use super::{
-    ladder::Sight,
+    coordinates::Parts,
     matrix::Matrix,
     modes::{Frame, Pair},
     phi::{COUNT, INVERSE_FACTORIALS, phi},
     propagator::{Blocks, Going, POWERS},
-    system::System,
 };
 use crate::complex::Complex;
 
@@ -72,61 +71,37 @@ impl Turns {
     }
 }
 
-/// What acts on the modes, and what is seen of them.
-#[derive(Clone, Debug)]
-pub(super) struct Modal<'a> {
-    frame: &'a Frame,
-    /// (V⁻¹X)ᵀ, (m + d) × 2n.
-    acting: Matrix,
-    /// R V, (m + d) × 2n.
-    seen: Matrix,
-}
-
-impl<'a> Modal<'a> {
-    /// For the loads and forces of an assembly, of which this is what they see.
-    pub(super) fn of(system: &System, frame: &'a Frame, sight: &Sight) -> Self {
-        let (n, m) = (system.size, system.loads);
-        let mut acting = Matrix::zeros(m + system.forces(), 2 * n);
-        acting.set_block([0, n], &system.load_rows);
-        acting.set_block([m, n], &system.rows.times(-1.0));
-        Self {
-            acting: acting.product(&frame.to_modes().transposed()),
-            seen: sight.places.product(frame.out_of_modes()),
-            frame,
-        }
-    }
-
-    /// The blocks of a step of this length (s), in the coordinates of the modes.
-    pub(super) fn blocks(&self, length_s: f64) -> Blocks {
-        let phi = Turns::over(self.frame, length_s);
-        let by = |k: usize| phi[k].of_rows(&self.acting, length_s);
-        Blocks {
-            by: std::array::from_fn(|power| by(power + 1)),
-            // as often as it is integrated, so much further is φ
-            moments: std::array::from_fn(|moment| phi[moment + 1].seen_by(&self.seen)),
-            moments_by: std::array::from_fn(|moment| {
-                let seen = |power: usize| self.seen.product(&by(power + moment + 2).transposed());
-                std::array::from_fn::<_, POWERS, _>(seen)
-            }),
-            state: Going::Turning({
-                let [own, ..] = phi;
-                own
-            }),
-        }
+/// The blocks of a step of this length (s), in the coordinates of the modes.
+pub(super) fn blocks(parts: &Parts, frame: &Frame, length_s: f64) -> Blocks {
+    let (acting, seen) = (&parts.acting, &parts.sight.places);
+    let phi = Turns::over(frame, length_s);
+    let by = |k: usize| phi[k].of_rows(acting, length_s);
+    Blocks {
+        by: std::array::from_fn(|power| by(power + 1)),
+        // as often as it is integrated, so much further is φ
+        moments: std::array::from_fn(|moment| phi[moment + 1].seen_by(seen)),
+        moments_by: std::array::from_fn(|moment| {
+            let seen = |power: usize| seen.product(&by(power + moment + 2).transposed());
+            std::array::from_fn::<_, POWERS, _>(seen)
+        }),
+        state: Going::Turning({
+            let [own, ..] = phi;
+            own
+        }),
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::{
-        assembly::{Assembly, AssemblyJoint, propagator::Propagator},
+        assembly::{Assembly, AssemblyJoint, propagator::Propagator, system::System},
         law::{DofLaws, Polynomial},
         random::Random,
     };
 
     /// Twelve coordinates, two of them of free motions, with dampers of the structures and of a joint.
-    fn assembly(damper: f64) -> Assembly {
+    pub(in super::super) fn assembly(damper: f64) -> Assembly {
         const SIZE: usize = 12;
         let mut random = Random(7);
         let mut row = |scale: f64| -> Vec<f64> {
@@ -163,12 +138,11 @@ mod tests {
 
     #[test]
     fn the_blocks_are_those_of_the_exponential() {
-        let system = System::of(&assembly(8.0));
-        let frame = Frame::of(&system).unwrap();
-        let modal = Modal::of(&system, &frame, &Sight::of(&system));
+        let parts = Parts::of(System::of(&assembly(8.0)));
+        let (system, frame) = (&parts.system, parts.frame.as_ref().unwrap());
         for length_s in [1e-6, 1e-3, 0.1] {
-            let found = modal.blocks(length_s);
-            let expected = Propagator::new(&system, length_s, 0).unwrap().blocks();
+            let found = blocks(&parts, frame, length_s);
+            let expected = Propagator::new(system, length_s, 0).unwrap().blocks();
             let out = frame.out_of_modes();
             let identity = Matrix::identity(2 * system.size);
             let state = found.state.seen_by(out).product(frame.to_modes());

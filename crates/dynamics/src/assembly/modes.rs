@@ -154,18 +154,14 @@ impl Frame {
             let again = of(&self.out_of_modes, &z);
             self.take_rates(&mut z);
             let found = of(&self.out_of_modes, &z);
-            let mut rates = y[n..].to_vec();
-            for i in 0..n {
-                let load =
-                    dot(system.stiffness.row(i), &y[..n]) + dot(system.damping.row(i), &y[n..]);
-                rates.push(-load);
-            }
+            let mut rates = vec![0.0; 2 * n];
+            system.rates(&y, &mut rates);
             is_near(&again, &y, 1.0) && is_near(&found, &rates, largest)
         })
     }
 
     /// z ← Λ z
-    fn take_rates(&self, z: &mut [f64]) {
+    pub(super) fn take_rates(&self, z: &mut [f64]) {
         for (pair, own) in z.chunks_exact_mut(2).zip(&self.pairs) {
             let [first, second] = [pair[0], pair[1]];
             let [a, b, c, d] = match own {

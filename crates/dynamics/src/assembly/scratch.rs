@@ -1,13 +1,14 @@
 //! One part of a step: the joints' forces at its nodes, the motion that they lead to, and the work that is done.
 
 use super::{
-    ladder::{Rung, Sight},
+    coordinates::{Parts, Sight},
+    ladder::Rung,
     lobatto::{NODES, THETA, WEIGHTS, legendre_coefficients, powers},
     matrix::dot,
     preload::LawsAt,
     propagator::{Blocks, MOMENTS, POWERS},
     stages::{LATER, Stages},
-    state::AssemblyState,
+    state::Underway,
     system::System,
 };
 use crate::law::{Corner, DOF_AT_REST, DofLaws, DofMemory};
@@ -28,6 +29,9 @@ const STEEPEST: f64 = 3.0;
 const NEXT: f64 = 0.5;
 const AFTER_NEXT: f64 = 0.3;
 
+/// Powers of time that loads have.
+const LOAD_POWERS: usize = 4;
+
 /// What a part of a step is taken with.
 #[derive(Clone, Copy)]
 pub(super) struct Means<'a> {
@@ -39,7 +43,7 @@ pub(super) struct Means<'a> {
 /// Room for what a part of a step computes, one for each halving.
 #[derive(Clone, Debug)]
 pub(super) struct Scratch {
-    pub(super) state: AssemblyState,
+    pub(super) state: Underway,
     /// Loads, and then the preloads, as powers of time.
     pub(super) loads: [Vec<f64>; POWERS],
     /// The laws at the nodes, where joints follow a preload; else nothing.
@@ -115,7 +119,7 @@ impl Scratch {
         let (m, d) = (system.loads, system.forces());
         let following = system.following.len();
         Self {
-            state: AssemblyState::of_size(system.size, d),
+            state: Underway::of_size(system.size, d),
             loads: std::array::from_fn(|_| vec![0.0; m + following]),
             laws: vec![system.laws.clone(); if following > 0 { NODES } else { 0 }],
             relative: std::array::from_fn(|_| vec![0.0; 2 * d]),
@@ -128,6 +132,15 @@ impl Scratch {
             sizes: vec![0.0; 2 * d],
             changes: vec![0.0; 2 * d],
             corners: Vec::new(),
+        }
+    }
+
+    /// Takes the loads and preloads of a step: wₖ for the power (0 to 3) and the load or, after all loads, the preload.
+    pub(super) fn take_loads(&mut self, of: impl Fn(usize, usize) -> f64) {
+        for (power, loads) in self.loads.iter_mut().enumerate().take(LOAD_POWERS) {
+            for (load, own) in loads.iter_mut().enumerate() {
+                *own = of(power, load);
+            }
         }
     }
 
@@ -145,19 +158,46 @@ impl Scratch {
     }
 
     /// What friction held at the preload before a step and no longer holds slips at once, before anything moves.
-    pub(super) fn let_go(&mut self, system: &System, state: &mut AssemblyState) {
+    pub(super) fn let_go(&mut self, system: &System, sight: &Sight, state: &mut Underway) {
         self.follow(system);
         let Some(begin) = self.laws.first() else {
             return;
         };
         let now = &mut self.relative[0];
-        system.relative(&state.motion, now);
+        sight.relative(&state.motion, now);
         let (r, velocity) = now.split_at(begin.on.len());
         let laws = begin.on.iter().zip(&mut state.memory);
         for (i, (laws, memory)) in laws.enumerate() {
             if laws.have_memory() {
-                state.dissipated_j += laws.commit(memory, r[i], velocity[i]);
+                state.balance_j += laws.commit(memory, r[i], velocity[i]);
             }
+        }
+    }
+
+    /// z + δ ż under the present loads. Friction that moves on the way counts its heat in the step that follows.
+    pub(super) fn creep(&mut self, parts: &Parts, state: &mut Underway, rest_s: f64) {
+        let (system, sight) = (&parts.system, &parts.sight);
+        let (m, d) = (system.loads, system.forces());
+        self.follow(system);
+        let laws = self.laws.first().unwrap_or(&system.laws);
+        let [now, ..] = &mut self.relative;
+        sight.relative(&state.motion, now);
+        let [acting, ..] = &mut self.powers;
+        acting[..m].copy_from_slice(&self.loads[0][..m]);
+        laws.forces(system, &state.memory, now, &mut acting[m..]);
+        let (r, velocity) = now.split_at(d);
+        let supplied: f64 = (0..m)
+            .map(|load| acting[load] * dot(sight.velocities.row(load), &state.motion))
+            .sum();
+        let into_laws = dot(&acting[m..], velocity);
+        let heat = laws.viscous_power(system, r, velocity);
+        state.supplied_j += rest_s * supplied;
+        state.balance_j += rest_s * (supplied - into_laws + heat);
+        let rates = &mut self.state.motion;
+        parts.rates(&state.motion, rates);
+        parts.acting.add_rows_to(acting, rates);
+        for (own, rate) in state.motion.iter_mut().zip(rates) {
+            *own += rest_s * *rate;
         }
     }
 
@@ -173,7 +213,7 @@ impl Scratch {
     pub(super) fn find_forces(
         &mut self,
         means: Means<'_>,
-        before: &AssemblyState,
+        before: &Underway,
         tolerance: f64,
     ) -> Option<f64> {
         let Means {
@@ -219,7 +259,7 @@ impl Scratch {
     }
 
     /// Holds the forces at the beginning over the step, for want of better ones.
-    pub(super) fn hold_forces(&mut self, system: &System, before: &AssemblyState) {
+    pub(super) fn hold_forces(&mut self, system: &System, before: &Underway) {
         let (m, d) = (system.loads, system.forces());
         let [begin, ..] = at_nodes(system, &self.laws);
         let [held, others @ ..] = &mut self.powers;
@@ -230,7 +270,7 @@ impl Scratch {
     }
 
     /// The larger one of h ω_t and h λ_t at the beginning.
-    fn angle(&mut self, means: Means<'_>, before: &AssemblyState) -> f64 {
+    fn angle(&mut self, means: Means<'_>, before: &Underway) -> f64 {
         let [begin, ..] = at_nodes(means.system, &self.laws);
         let (at, tangents) = (&self.relative[0], &mut self.tangents);
         let pace = begin.pace(means.system, &before.memory, at, tangents);
@@ -242,7 +282,7 @@ impl Scratch {
         &mut self,
         system: &System,
         stages: &Stages,
-        before: &AssemblyState,
+        before: &Underway,
         [rate_per_s, at_rest]: [f64; 2],
     ) -> bool {
         let d = system.forces();
@@ -352,7 +392,7 @@ impl Scratch {
     }
 
     /// The motion at the end, with the forces that were found.
-    pub(super) fn go_on(&mut self, means: Means<'_>, before: &AssemblyState) {
+    pub(super) fn go_on(&mut self, means: Means<'_>, before: &Underway) {
         let whole = &means.rung.whole;
         let end = &mut self.state.motion;
         whole.state.go_on(&before.motion, end);
@@ -365,7 +405,7 @@ impl Scratch {
     }
 
     /// What the step supplies and turns into heat, but for what the linear part stores, and what the joints remember after it.
-    fn count(&mut self, means: Means<'_>, before: &AssemblyState) {
+    fn count(&mut self, means: Means<'_>, before: &Underway) {
         let Means {
             system,
             sight,
@@ -415,7 +455,7 @@ impl Scratch {
             }
         }
         self.state.supplied_j = before.supplied_j + supplied;
-        self.state.dissipated_j = before.dissipated_j + heat;
+        self.state.balance_j = before.balance_j + heat;
     }
 
     /// ∫ x dθ of the displacement under a load or of a law, and the integrals over it.
@@ -428,7 +468,7 @@ impl Scratch {
     }
 
     /// Whether within the step that was found a law that remembers turns or passes a corner of its load.
-    pub(super) fn has_event(&mut self, means: Means<'_>, before: &AssemblyState) -> bool {
+    pub(super) fn has_event(&mut self, means: Means<'_>, before: &Underway) -> bool {
         let Means { system, rung, .. } = means;
         (0..system.forces()).any(|i| self.has_event_on(system, rung.length_s, before, i))
     }
@@ -437,7 +477,7 @@ impl Scratch {
         &mut self,
         system: &System,
         length_s: f64,
-        before: &AssemblyState,
+        before: &Underway,
         i: usize,
     ) -> bool {
         let [at_begin, .., at_end] = at_nodes(system, &self.laws);

@@ -5,12 +5,12 @@
 //! step is taken in halves, each in halves again.
 
 use super::{
+    coordinates::{AssemblyCoordinates, Parts},
     ladder::{HALVINGS_AT_EVENTS, Ladder},
-    matrix::Matrix,
     propagator::POWERS,
     scratch::{Means, Scratch},
-    state::AssemblyState,
-    system::{Assembly, System},
+    state::{AssemblyState, Underway},
+    system::Assembly,
 };
 
 /// Error of a part, in units of what is allowed, up to which one of twice the length is tried next: that has 2⁹ times as much.
@@ -22,12 +22,10 @@ pub const TOLERANCE: f64 = 1e-7;
 /// An assembly made ready for steps of one length.
 #[derive(Clone, Debug)]
 pub struct AssemblySteps {
-    system: System,
+    coordinates: AssemblyCoordinates,
     ladder: Ladder,
     tolerance: f64,
     scratch: Vec<Scratch>,
-    /// Room for a motion in other coordinates.
-    room: Vec<f64>,
     is_too_long: bool,
     /// The longest level that is worth a trial, by the latest part.
     longest: usize,
@@ -38,15 +36,22 @@ impl AssemblySteps {
     /// over a period of their own. `None` where the assembly's motion grows beyond all bounds within a step.
     #[must_use]
     pub fn new(assembly: &Assembly, length_s: f64, tolerance: f64) -> Option<Self> {
-        let system = System::of(assembly);
-        let ladder = Ladder::new(&system, length_s)?;
-        let scratch = vec![Scratch::of(&system); ladder.rungs.len()];
+        Self::within(&AssemblyCoordinates::of(assembly), length_s, tolerance)
+    }
+
+    /// The same in coordinates that are known already, which takes less time.
+    #[must_use]
+    pub fn within(
+        coordinates: &AssemblyCoordinates,
+        length_s: f64,
+        tolerance: f64,
+    ) -> Option<Self> {
+        let ladder = Ladder::new(&coordinates.0, length_s)?;
         Some(Self {
             tolerance,
-            room: vec![0.0; 2 * system.size],
-            system,
+            scratch: vec![Scratch::of(&coordinates.0.system); ladder.rungs.len()],
             ladder,
-            scratch,
+            coordinates: coordinates.clone(),
             is_too_long: false,
             longest: 0,
         })
@@ -61,10 +66,17 @@ impl AssemblySteps {
         }
     }
 
+    /// The coordinates in which they go on.
+    #[must_use]
+    pub fn coordinates(&self) -> &AssemblyCoordinates {
+        &self.coordinates
+    }
+
     /// An assembly that has not moved yet.
     #[must_use]
-    pub fn at_rest(&self) -> AssemblyState {
-        AssemblyState::of_size(self.system.size, self.system.forces())
+    pub fn at_rest(&self) -> Underway {
+        let system = &self.coordinates.0.system;
+        Underway::of_size(system.size, system.forces())
     }
 
     /// Length of the steps, s.
@@ -73,11 +85,11 @@ impl AssemblySteps {
         self.ladder.rungs.first().map_or(0.0, |rung| rung.length_s)
     }
 
-    /// Moves the state on by one step, in which the loads go from `loads` evenly to `loads` + `change` (m numbers each, and then the
-    /// preload of each joint over the preload, N·m). Where the joints ask for it the step is taken in halves, each in halves again, up to 4096 parts; where that
-    /// was not enough, [`Self::was_too_long`] says so. Says how many parts it took.
-    pub fn step(&mut self, state: &mut AssemblyState, loads: &[f64], change: &[f64]) -> usize {
-        self.step_along(state, |power, load| match power {
+    /// Moves on by one step, in which the loads go from `loads` evenly to `loads` + `change` (m numbers each, and then the
+    /// preload of each joint over the preload, N·m). Where the joints ask for it the step is taken in halves, each in halves again,
+    /// up to 4096 parts; where that was not enough, [`Self::was_too_long`] says so. Says how many parts it took.
+    pub fn step(&mut self, underway: &mut Underway, loads: &[f64], change: &[f64]) -> usize {
+        self.step_along(underway, |power, load| match power {
             0 => loads[load],
             1 => change[load],
             _ => 0.0,
@@ -88,24 +100,31 @@ impl AssemblySteps {
     /// the load or, after all loads, the preload.
     pub fn step_along(
         &mut self,
-        state: &mut AssemblyState,
+        underway: &mut Underway,
         of: impl Fn(usize, usize) -> f64,
     ) -> usize {
+        let Parts { system, sight, .. } = &*self.coordinates.0;
         if let Some(scratch) = self.scratch.first_mut() {
-            for (power, loads) in scratch.loads.iter_mut().enumerate().take(LOAD_POWERS) {
-                for (load, own) in loads.iter_mut().enumerate() {
-                    *own = of(power, load);
-                }
-            }
-            scratch.let_go(&self.system, state);
+            scratch.take_loads(of);
+            scratch.let_go(system, sight, underway);
         }
         self.is_too_long = false;
         self.longest = 0;
-        let stored = self.system.linear_energy(&state.motion);
-        let parts = self.part(state, 0, HALVINGS_AT_EVENTS);
-        // what of the work is neither stored nor given to the laws is heat of the linear dampers
-        state.dissipated_j -= self.system.linear_energy(&state.motion) - stored;
-        parts
+        self.part(underway, 0, HALVINGS_AT_EVENTS)
+    }
+
+    /// Moves on by a small part of a step (s), to first order: z + δ ż. Loads and preloads are those of [`Self::step_along`] at its
+    /// end.
+    pub fn creep(
+        &mut self,
+        underway: &mut Underway,
+        rest_s: f64,
+        of: impl Fn(usize, usize) -> f64,
+    ) {
+        if let Some(scratch) = self.scratch.first_mut() {
+            scratch.take_loads(of);
+            scratch.creep(&self.coordinates.0, underway, rest_s);
+        }
     }
 
     /// Whether in the latest step one of its shortest parts was still too long for the stiffness of the joints. The step ends there:
@@ -116,7 +135,7 @@ impl AssemblySteps {
     }
 
     /// One step of the given level, with the loads in its scratch, that may still be halved so often at events.
-    fn part(&mut self, state: &mut AssemblyState, level: usize, at_events: usize) -> usize {
+    fn part(&mut self, state: &mut Underway, level: usize, at_events: usize) -> usize {
         if self.is_too_long {
             // nothing holds any more
             return 0;
@@ -125,14 +144,15 @@ impl AssemblySteps {
         else {
             return 0;
         };
+        let Parts { system, sight, .. } = &*self.coordinates.0;
         let is_finest = level + 1 == self.ladder.rungs.len();
         let means = Means {
-            system: &self.system,
-            sight: self.ladder.sight(level),
+            system,
+            sight,
             rung,
         };
-        own.follow(&self.system);
-        let is_tried = is_finest || level >= self.longest && !own.is_preload_far(&self.system);
+        own.follow(system);
+        let is_tried = is_finest || level >= self.longest && !own.is_preload_far(system);
         let error = match is_tried {
             true => own.find_forces(means, state, self.tolerance),
             false => None,
@@ -148,7 +168,7 @@ impl AssemblySteps {
         let Some(at_events) = at_events else {
             self.is_too_long |= is_steep;
             if error.is_none() {
-                own.hold_forces(&self.system, state);
+                own.hold_forces(system, state);
             }
             let is_easy = error.is_some_and(|error| error < EASY);
             self.longest = self.longest.min(level.saturating_sub(usize::from(is_easy)));
@@ -162,37 +182,19 @@ impl AssemblySteps {
         if let [own, next, ..] = &mut self.scratch[level..] {
             halve(&own.loads, &mut next.loads);
         }
-        // halves are taken mode by mode
-        let frame = self.ladder.frame.as_ref().filter(|_| level == 0);
-        if let Some(frame) = frame {
-            replace(frame.to_modes(), &mut state.motion, &mut self.room);
-        }
         let first = self.part(state, level + 1, at_events);
         if let Some(next) = self.scratch.get_mut(level + 1) {
             go_on(&mut next.loads);
         }
         let second = self.part(state, level + 1, at_events);
-        if let Some(frame) = self.ladder.frame.as_ref().filter(|_| level == 0) {
-            replace(frame.out_of_modes(), &mut state.motion, &mut self.room);
-        }
         first + second
     }
 
     /// Energy stored in structures and joints, J; of joints over the preload at that at which the linear part is.
     #[must_use]
     pub fn stored_energy_j(&self, state: &AssemblyState) -> f64 {
-        self.system.stored_energy(state)
+        self.coordinates.0.system.stored_energy(state)
     }
-}
-
-/// Powers of time that loads have.
-const LOAD_POWERS: usize = 4;
-
-/// x ← A x
-fn replace(matrix: &Matrix, x: &mut Vec<f64>, room: &mut Vec<f64>) {
-    room.fill(0.0);
-    matrix.add_product_to(x, room);
-    std::mem::swap(x, room);
 }
 
 /// Powers of time of the first half.

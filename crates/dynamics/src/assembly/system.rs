@@ -202,13 +202,14 @@ impl System {
         self.laws.on.len()
     }
 
-    /// Relative displacements of the DOFs with laws, and then their rates, at coordinates and their rates.
-    pub(super) fn relative(&self, state: &[f64], relative: &mut [f64]) {
-        let (q, rates) = state.split_at(self.size);
-        let (r, velocity) = relative.split_at_mut(self.forces());
-        for i in 0..self.forces() {
-            r[i] = dot(self.rows.row(i), q);
-            velocity[i] = dot(self.rows.row(i), rates);
+    /// (q̇, q̈) at (q, q̇) where nothing acts but the linear part.
+    pub(super) fn rates(&self, state: &[f64], rates: &mut [f64]) {
+        let (q, velocities) = state.split_at(self.size);
+        let (first, second) = rates.split_at_mut(self.size);
+        first.copy_from_slice(velocities);
+        for (i, acceleration) in second.iter_mut().enumerate() {
+            let load = dot(self.stiffness.row(i), q) + dot(self.damping.row(i), velocities);
+            *acceleration = -load;
         }
     }
 

@@ -1,7 +1,9 @@
 //! The check case of one elastic mode, a rigid body and a cubic joint between them. Its numbers come from NumPy and SciPy
 //! (DOP853 at 1e-13 where the reference is in time).
 
-use super::*;
+use std::sync::Arc;
+
+use super::{coordinates::Parts, modal, system::System, *};
 use crate::law::{DofLaws, Jenkins, Polynomial};
 
 /// A has one mode of 800 rad/s with 2 % of damping and shape 1.2 at the joint; B is a rigid body of 0.5 kg. u acts on B.
@@ -30,10 +32,10 @@ fn without_halves(assembly: &Assembly, length_s: f64) -> AssemblySteps {
     AssemblySteps::new(assembly, length_s, f64::INFINITY).unwrap()
 }
 
-fn started(steps: &AssemblySteps) -> AssemblyState {
-    let mut state = steps.at_rest();
+fn started(steps: &AssemblySteps) -> Underway {
+    let mut state = steps.coordinates().state(&steps.at_rest());
     state.motion[1] = 1e-3 / 2.0_f64.sqrt();
-    state
+    steps.coordinates().underway(&state)
 }
 
 #[track_caller]
@@ -64,8 +66,9 @@ fn a_step_is_that_of_collocation_in_all_coordinates() {
     ];
     for (length_s, expected, digits) in [(1e-4, short, 1e-13), (5e-4, long, 1e-8)] {
         let mut steps = without_halves(&cubic(), length_s);
-        let mut state = started(&steps);
-        assert_eq!(steps.step(&mut state, &[10.0], &[0.0]), 1);
+        let mut underway = started(&steps);
+        assert_eq!(steps.step(&mut underway, &[10.0], &[0.0]), 1);
+        let state = steps.coordinates().state(&underway);
         // where steps are long the forces are iterated to nine digits
         assert_near(&state.motion, &expected, digits);
     }
@@ -109,26 +112,28 @@ fn after(
 ) -> (AssemblyState, f64, usize) {
     let length_s = duration_s / f64::from(count);
     let mut steps = AssemblySteps::new(assembly, length_s, tolerance).unwrap();
-    let state = started(&steps);
-    followed(&mut steps, state, count, [10.0, slope])
+    let started = started(&steps);
+    let (reached, balance, parts) = followed(&mut steps, started, count, [10.0, slope]);
+    (steps.coordinates().state(&reached), balance, parts)
 }
 
 fn followed(
     steps: &mut AssemblySteps,
-    mut state: AssemblyState,
+    mut underway: Underway,
     count: u32,
     [first, slope]: [f64; 2],
-) -> (AssemblyState, f64, usize) {
+) -> (Underway, f64, usize) {
     let length_s = steps.length_s();
-    let begun = steps.stored_energy_j(&state);
+    let begun = steps.stored_energy_j(&steps.coordinates().state(&underway));
     let mut parts = 0;
     for step in 0..count {
         let load = first + slope * length_s * f64::from(step);
-        parts += steps.step(&mut state, &[load], &[slope * length_s]);
+        parts += steps.step(&mut underway, &[load], &[slope * length_s]);
     }
+    let state = steps.coordinates().state(&underway);
     let stored = steps.stored_energy_j(&state) - begun;
     let balance = state.supplied_j - state.dissipated_j - stored;
-    (state, balance, parts)
+    (underway, balance, parts)
 }
 
 #[test]
@@ -193,7 +198,8 @@ fn a_slider_is_followed_into_the_halves_where_it_turns() {
     for (count, tolerance, most) in [(500, 1e-8, 1200), (1000, 4e-9, 2000), (4000, 1e-10, 8000)] {
         let mut steps = AssemblySteps::new(&assembly, 0.02 / f64::from(count), 1e-6).unwrap();
         let rest = steps.at_rest();
-        let (state, balance, parts) = followed(&mut steps, rest, count, [200.0, 0.0]);
+        let (reached, balance, parts) = followed(&mut steps, rest, count, [200.0, 0.0]);
+        let state = steps.coordinates().state(&reached);
         assert_near(&state.motion, &motion, tolerance);
         assert!(balance.abs() < 0.1 * tolerance, "{balance}");
         // beside the first steps, that suit the slider's own stiffness, only six events ask for halves
@@ -280,10 +286,80 @@ fn a_preload_that_stays_is_the_joint_at_it() {
     // propagated at another preload as well
     for about in [8.0, 5.0] {
         let mut steps = AssemblySteps::new(&loosening().about(&[about]), 1e-4, 1e-7).unwrap();
-        let mut state = started(&steps);
+        let mut underway = started(&steps);
         for _ in 0..10 {
-            steps.step(&mut state, &[10.0, 8.0], &[0.0, 0.0]);
+            steps.step(&mut underway, &[10.0, 8.0], &[0.0, 0.0]);
         }
+        let state = steps.coordinates().state(&underway);
         assert_near(&state.motion, &AFTER_A_MILLISECOND, 1e-8);
     }
+}
+
+#[test]
+fn a_small_part_of_a_step_is_of_first_order() {
+    let laws = Polynomial::with(&[1e12], &[3e7]);
+    let assembly = check_case(laws.into(), [4e5, 20.0]);
+    let of = |power: usize, _: usize| if power == 0 { 10.0 } else { 0.0 };
+    let off = |rest_s: f64| {
+        let mut steps = AssemblySteps::new(&assembly, rest_s, 1e-9).unwrap();
+        let mut exact = started(&steps);
+        // where velocities are not zero
+        for _ in 0..(1e-4 / rest_s).round() as u32 {
+            steps.step_along(&mut exact, of);
+        }
+        let mut found = exact.clone();
+        steps.step_along(&mut exact, of);
+        steps.creep(&mut found, rest_s, of);
+        let [exact, found] = [exact, found].map(|own| steps.coordinates().state(&own));
+        let of_motion = found.motion.iter().zip(&exact.motion);
+        let motion = of_motion.map(|(found, exact)| (found / exact - 1.0).abs());
+        let energies = [
+            found.supplied_j - exact.supplied_j,
+            found.dissipated_j - exact.dissipated_j,
+        ];
+        [
+            motion.fold(0.0, f64::max),
+            energies[0].abs(),
+            energies[1].abs(),
+        ]
+    };
+    let [coarse, fine] = [off(1e-6), off(1e-7)];
+    for (coarse, fine) in coarse.into_iter().zip(fine) {
+        assert!((50.0..200.0).contains(&(coarse / fine)), "{coarse} {fine}");
+    }
+}
+
+#[test]
+fn modes_go_on_as_the_coordinates_do() {
+    let assembly = modal::tests::assembly(8.0);
+    let in_modes = AssemblyCoordinates::of(&assembly);
+    // by exponentials of the whole matrix
+    let whole = AssemblyCoordinates(Arc::new(Parts::within(System::of(&assembly), None)));
+    assert!(in_modes.0.frame.is_some());
+    let load = |power: usize, _: usize| [40.0, 3.0, -2.0, 1.0][power];
+    let [found, expected] = [in_modes, whole].map(|coordinates| {
+        let mut steps = AssemblySteps::within(&coordinates, 1e-4, 1e-9).unwrap();
+        let mut state = AssemblyState::at_rest(&assembly);
+        for (i, own) in state.motion.iter_mut().enumerate() {
+            *own = 1e-5 * (i as f64 - 7.0);
+        }
+        state.dissipated_j = 0.25;
+        let mut underway = coordinates.underway(&state);
+        for _ in 0..200 {
+            steps.step_along(&mut underway, load);
+        }
+        steps.creep(&mut underway, 1e-9, load);
+        (coordinates.state(&underway), coordinates.underway(&state))
+    });
+    let largest = |own: &[f64]| own.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let size = assembly.size();
+    for part in [0..size, size..2 * size] {
+        let (own, other) = (&found.0.motion[part.clone()], &expected.0.motion[part]);
+        let off: Vec<f64> = own.iter().zip(other).map(|(a, b)| a - b).collect();
+        assert!(largest(&off) < 1e-9 * largest(other), "{off:?} {other:?}");
+    }
+    let energies = |own: &AssemblyState| [own.supplied_j, own.dissipated_j];
+    assert_near(&energies(&found.0), &energies(&expected.0), 1e-9);
+    // what is entered is what is told
+    assert_near(&[found.1.balance_j], &[expected.1.balance_j], 1e-15);
 }

@@ -145,12 +145,12 @@ impl Course<'_> {
 
     /// States at the communication points.
     fn history(&self, mut steps: AssemblySteps) -> Vec<AssemblyState> {
-        let mut state = AssemblyState::at_rest(self.assembly);
+        let mut underway = steps.at_rest();
         let held = vec![0.0; self.inputs()];
-        let mut all = vec![state.clone()];
+        let mut all = vec![AssemblyState::at_rest(self.assembly)];
         for step in 0..STEPS {
-            steps.step(&mut state, &self.at(step), &held);
-            all.push(state.clone());
+            steps.step(&mut underway, &self.at(step), &held);
+            all.push(steps.coordinates().state(&underway));
         }
         all
     }

@@ -65,6 +65,7 @@ impl Instance {
     /// The present point, with the rate of the preload.
     fn present(&self) -> Values {
         let mut values = self.values.clone();
+        self.model.settle(&mut values);
         values[memory::PRELOAD_RATE] = self.preload_rate();
         let remembers_from_start = values.are_integrated() || !values.listed().is_empty();
         if self.begins() && remembers_from_start {

@@ -199,6 +199,7 @@ impl Instance {
     fn abandon(&mut self, step: &IntermediateStep) {
         self.values.clone_from(&step.values_before);
         self.inputs.clone_from(&step.inputs_before);
+        self.model.restored(&self.values);
         self.outputs_stale = true;
     }
 

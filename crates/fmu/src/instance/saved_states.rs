@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     fmu_state::{Snapshot, StateError},
-    interface::{is_beside, is_committed},
+    interface::{Roles, is_beside, is_committed},
     refusal::Refusal,
 };
 
@@ -20,12 +20,16 @@ impl Instance {
         // nor is what a joint remembers before it has moved, which follows from the start values
         let begins = self.begins();
         let mut values = self.values.clone();
+        // what an assembly goes on from is remembered; its states may not have been told
+        let is_underway = values.underway().numbers().is_some();
+        values.underway_mut().forget();
         for index in self.values.indices() {
             let is_kept = match self.roles.get(index) {
                 _ if is_beside(index) => !begins,
                 Some(roles) if roles.intersects(CALCULATED.with(CALCULATED_PARAMETERS)) => {
                     is_committed(index) && !begins
                 }
+                Some(roles) if roles.intersects(Roles::CARRIED) => !is_underway,
                 _ => true,
             };
             if !is_kept {
@@ -53,6 +57,7 @@ impl Instance {
         self.pace = snapshot.pace;
         self.values.clone_from(&snapshot.values);
         self.inputs.clone_from(&snapshot.inputs);
+        self.model.restored(&self.values);
         self.parameters_changed = true;
         self.outputs_stale = true;
         Ok(())

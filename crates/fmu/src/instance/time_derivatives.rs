@@ -86,6 +86,7 @@ impl Instance {
     /// Derivatives of inputs, states and outputs with respect to time.
     fn rates(&self) -> Values {
         let mut values = self.values.clone();
+        self.model.settle(&mut values);
         values[memory::PRELOAD_RATE] = self.preload_rate();
         if self.outputs_stale || self.energies_stale {
             self.model.calculate_outputs(&mut values);

@@ -21,7 +21,10 @@ pub(super) const CALCULATED: Roles = Roles::of(&[
 /// Roles whose values follow from the parameters, and are calculated whenever somebody asks.
 pub(super) const CALCULATED_PARAMETERS: Roles = Roles::of(&[Role::CalculatedParameter]);
 
-/// Roles whose values are always there.
+/// The same, and states that may not have been told.
+const CARRIED_OR_CALCULATED: Roles = CALCULATED.with(Roles::CARRIED);
+
+/// Roles whose values are always there, but for states that are carried.
 const AT_HAND: Roles = Roles::of(&[Role::Independent, Role::Parameter, Role::Input, Role::State]);
 
 /// What may be set in every Step Mode, to every number.
@@ -51,8 +54,12 @@ impl Instance {
         }
         for (&reference, value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
-            if roles.intersects(CALCULATED) {
-                self.calculate(roles);
+            if roles.intersects(CARRIED_OR_CALCULATED) {
+                if roles.intersects(Roles::CARRIED) {
+                    self.model.settle(&mut self.values);
+                } else {
+                    self.calculate(roles);
+                }
                 if !self.values[index].is_finite() {
                     return Err(self.overflow(index));
                 }
@@ -86,7 +93,9 @@ impl Instance {
         for (&reference, value) in references.iter().zip(values) {
             let index = reference as usize;
             match self.roles.get(index) {
-                Some(roles) if roles.intersects(AT_HAND) => value.write(self.values[index]),
+                Some(roles) if roles.intersects(AT_HAND) && !roles.intersects(Roles::CARRIED) => {
+                    value.write(self.values[index])
+                }
                 _ => return false,
             };
         }
@@ -120,6 +129,13 @@ impl Instance {
         }
         for (&reference, &value) in references.iter().zip(values) {
             let (index, roles) = self.known(reference)?;
+            if roles.intersects(Roles::CARRIED) {
+                // those that are not set stay what they are
+                self.model.settle(&mut self.values);
+                if self.values[index].to_bits() != value.to_bits() {
+                    self.values.underway_mut().end();
+                }
+            }
             // importers that set every parameter before every step pay only for those that change
             self.parameters_changed |=
                 roles.intersects(PARAMETERS) && self.values[index].to_bits() != value.to_bits();
@@ -192,6 +208,7 @@ impl Instance {
             if self.begins() {
                 self.model.begin(&mut self.values);
             }
+            self.model.settle(&mut self.values);
             self.values[memory::PRELOAD_RATE] = self.preload_rate();
             self.model.calculate_outputs(&mut self.values);
             // it follows from the inputs' course, and is nothing to remember

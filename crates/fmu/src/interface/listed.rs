@@ -102,6 +102,23 @@ impl ListedVariables {
         self.remembering
     }
 
+    /// How many numbers the steps of what is listed go on from, beside what the laws remember: see [`Underway`].
+    ///
+    /// [`Underway`]: crate::values::Underway
+    pub(crate) fn underway(&self) -> usize {
+        let count = |role| {
+            let all = self.variables.iter();
+            all.filter(|variable| variable.role == role).count()
+        };
+        count(Role::State).saturating_sub(1) + count(Role::LimitedInput) + 1
+    }
+
+    /// Whether it is a state that may be told only where it is asked for.
+    pub(super) fn is_carried(&self, index: usize) -> bool {
+        self.get(index)
+            .is_some_and(|variable| variable.role == Role::State)
+    }
+
     pub(super) fn is_apart(&self, index: usize) -> bool {
         index >= self.first_apart
     }

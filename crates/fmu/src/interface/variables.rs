@@ -77,6 +77,7 @@ impl Variables {
                     }
                     reference::PRELOAD => own.with(Roles::LIMITED),
                     _ if self.is_apart(index) => own.with(Roles::APART),
+                    _ if self.is_carried(index) => own.with(Roles::CARRIED),
                     _ => own,
                 }
             })
@@ -87,6 +88,11 @@ impl Variables {
     /// Whether a variable of an assembly is calculated apart from other outputs.
     fn is_apart(&self, index: usize) -> bool {
         matches!(self, Self::Listed(listed) if listed.is_apart(index))
+    }
+
+    /// Whether a state of an assembly may be told only where it is asked for.
+    fn is_carried(&self, index: usize) -> bool {
+        matches!(self, Self::Listed(listed) if listed.is_carried(index))
     }
 
     /// Whether there are outputs that are calculated apart.

@@ -73,6 +73,12 @@ pub(crate) trait Model: Send {
     /// Forgets what the user was told.
     fn reset(&mut self);
 
+    /// Writes the states that are listed, where these follow from how an assembly goes on and have not been told.
+    fn settle(&self, _values: &mut Values) {}
+
+    /// Prepares what [`Model::settle`] needs at values that another instance, or this one earlier, has come to.
+    fn restored(&mut self, _values: &Values) {}
+
     /// Calculates the calculated parameters from the parameters, whether these are in use or not.
     fn calculate_parameters(&self, values: &mut Values);
 

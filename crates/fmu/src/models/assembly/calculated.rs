@@ -34,13 +34,23 @@ impl<N: Number> Calculated<'_, N> {
         let (states, calculated) = listed.split_at_mut(layout.motions.start);
         let motion = self.motion(states);
         let (motions, rest) = calculated.split_at_mut(layout.motions.len());
-        let (joint_loads, rest) = rest.split_at_mut(layout.joint_loads.len());
+        let joint_loads = &mut rest[..layout.joint_loads.len()];
         for (own, row) in motions.chunks_exact_mut(2).zip(rows(&self.file.motions)) {
             own[0] = product(row, motion.coordinates);
             own[1] = product(row, motion.rates);
         }
         self.file.assembly.joint_loads(motion, memory, joint_loads);
-        for (own, shown) in rest.iter_mut().zip(&layout.remembered) {
+        self.write_remembered(listed, memory);
+    }
+
+    /// What the joints remember.
+    pub(super) fn write_remembered<M: Number + Into<N>>(
+        &self,
+        listed: &mut [N],
+        memory: &[DofMemory<M>],
+    ) {
+        let shown = &mut listed[self.layout.memory.clone()];
+        for (own, shown) in shown.iter_mut().zip(&self.layout.remembered) {
             *own = memory[shown.dof][shown.place].into();
         }
     }

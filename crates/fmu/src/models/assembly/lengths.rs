@@ -7,8 +7,9 @@
 //! What is propagated exactly has the stiffness and damping of one preload of each joint over the preload. A step takes that at
 //! which the joint has stayed for some steps; while the preload moves, the nearest one of the table, of which there are few.
 
-use bolted_joint_dynamics::assembly::{Assembly, AssemblySteps, TOLERANCE};
+use bolted_joint_dynamics::assembly::{AssemblySteps, TOLERANCE};
 
+use super::places::Place;
 use crate::{models::Step, refusal::Refusal};
 
 /// So many lengths are kept: that of the steps, and a few of what is left over where they end or where events are.
@@ -31,13 +32,8 @@ struct Prepared {
 }
 
 impl Lengths {
-    /// What this step needs with the linear part at these preloads (N·m); its length may be another by the last digits.
-    pub(super) fn of(
-        &mut self,
-        assembly: &Assembly,
-        about_n_m: Vec<f64>,
-        step: Step,
-    ) -> Result<&mut AssemblySteps, Refusal> {
+    /// What this step needs in this place; its length may be another by the last digits.
+    pub(super) fn of(&mut self, place: &Place, step: Step) -> Result<&mut AssemblySteps, Refusal> {
         let [latest_s, mut rounded_s] = self.latest_s;
         if latest_s != step.interval_s {
             rounded_s = with_nine_digits(step.interval_s);
@@ -45,7 +41,7 @@ impl Lengths {
         }
         let mut known = self.prepared.iter();
         let is_it =
-            |own: &Prepared| own.steps.length_s() == rounded_s && own.about_n_m == about_n_m;
+            |own: &Prepared| own.steps.length_s() == rounded_s && own.about_n_m == place.about_n_m;
         match known.position(is_it) {
             Some(place) if place + 1 == self.prepared.len() => {}
             Some(place) => {
@@ -53,10 +49,7 @@ impl Lengths {
                 self.prepared.push(own);
             }
             None => {
-                let steps = match about_n_m.is_empty() {
-                    true => AssemblySteps::new(assembly, rounded_s, TOLERANCE),
-                    false => AssemblySteps::new(&assembly.about(&about_n_m), rounded_s, TOLERANCE),
-                };
+                let steps = AssemblySteps::within(&place.coordinates, rounded_s, TOLERANCE);
                 let steps = steps.ok_or(Refusal::GrowsWithinStep {
                     interval_s: step.interval_s,
                     time_s: step.time_s,
@@ -64,6 +57,7 @@ impl Lengths {
                 if self.prepared.len() == KEPT {
                     self.prepared.remove(0);
                 }
+                let about_n_m = place.about_n_m.clone();
                 self.prepared.push(Prepared { steps, about_n_m });
             }
         }

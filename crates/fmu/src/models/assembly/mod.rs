@@ -5,12 +5,13 @@ mod calculated;
 mod layout;
 mod lengths;
 mod memory;
+mod places;
 
 pub(crate) use layout::AssemblyLayout;
 
 use bolted_joint_dynamics::{
-    Dual, JointLaw, SPACE_COUNT,
-    assembly::{AssemblyMotion, AssemblyState},
+    DofMemory, Dual, JointLaw, SPACE_COUNT,
+    assembly::{AssemblyCoordinates, Underway},
 };
 
 use crate::{
@@ -23,6 +24,7 @@ use crate::{
 use calculated::Calculated;
 use lengths::Lengths;
 use memory::Stayed;
+use places::Places;
 
 /// Parts of a step at whose ends it is looked whether a preload is still within its table.
 const PARTS: u32 = 8;
@@ -32,16 +34,18 @@ const PARTS: u32 = 8;
 pub(super) struct AssemblyModel {
     file: AssemblyFile,
     layout: AssemblyLayout,
+    places: Places,
     lengths: Lengths,
     /// Where a step moves the state on.
-    state: AssemblyState,
+    state: Underway,
 }
 
 impl AssemblyModel {
     pub(super) fn new(file: AssemblyFile) -> Self {
         Self {
             layout: AssemblyLayout::of(&file),
-            state: AssemblyState::at_rest(&file.assembly),
+            state: Underway::at_rest(&file.assembly),
+            places: Places::default(),
             lengths: Lengths::default(),
             file,
         }
@@ -74,6 +78,27 @@ impl AssemblyModel {
         }
     }
 
+    /// Writes motions, loads in the joints, and what these remember; returns the latter where it is more than what was committed.
+    fn write_outputs(
+        &self,
+        calculated: Calculated<'_>,
+        values: &mut Values,
+    ) -> Option<Vec<DofMemory>> {
+        let present = memory::present(calculated, values);
+        let laws = calculated.laws;
+        // the same whether the states have been told or not
+        let is_underway = self
+            .places
+            .write_outputs(&self.file, &self.layout, laws, values);
+        let (listed, committed) = values.listed_beside_memory();
+        let memory = present.as_deref().unwrap_or(committed);
+        match is_underway {
+            true => calculated.write_remembered(listed, memory),
+            false => calculated.write(listed, memory),
+        }
+        present
+    }
+
     /// Refuses preloads (N·m) that a step of this length (s) comes to and at which there is no joint, by `look`, which finds
     /// them after a time (s).
     fn check_preloads(&self, step: Step, look: impl Fn(usize, f64) -> f64) -> Result<(), Refusal> {
@@ -88,13 +113,8 @@ impl AssemblyModel {
         Ok(())
     }
 
-    /// Takes the state from the variables.
-    fn take_state(&mut self, values: &Values) {
-        let (layout, listed) = (&self.layout, values.listed());
-        let states = &listed[layout.coordinates.start..layout.rates.end];
-        self.state.motion.copy_from_slice(states);
-        self.state.supplied_j = listed[layout.energies.start];
-        self.state.dissipated_j = listed[layout.energies.start + 1];
+    /// Takes what the laws remember from the variables.
+    fn take_memory(&mut self, values: &Values) {
         let laws = self.file.assembly.laws();
         for ((laws, own), memory) in laws.zip(&mut self.state.memory).zip(values.memories()) {
             laws.copy_memory(memory, own);
@@ -102,12 +122,8 @@ impl AssemblyModel {
     }
 
     /// Writes it to the variables.
-    fn write_state(&self, values: &mut Values) {
-        let layout = &self.layout;
+    fn write_memory(&self, values: &mut Values) {
         let listed = values.listed_mut();
-        listed[layout.coordinates.start..layout.rates.end].copy_from_slice(&self.state.motion);
-        listed[layout.energies.start] = self.state.supplied_j;
-        listed[layout.energies.start + 1] = self.state.dissipated_j;
         self.calculated(&[]).write_inner(listed, &self.state.memory);
         let laws = self.file.assembly.laws();
         for ((laws, own), memory) in laws.zip(&self.state.memory).zip(values.memories_mut()) {
@@ -115,46 +131,41 @@ impl AssemblyModel {
         }
     }
 
-    /// Moves the state on by what is left over of a step: y + δ ẏ.
-    fn go_on(&mut self, values: &Values, rest_s: f64) {
-        let assembly = &self.file.assembly;
-        let loads = &values.listed()[self.layout.loads.clone()];
-        let laws = self.laws(values);
-        let (coordinates, rates) = self.state.motion.split_at(assembly.size());
-        let motion = AssemblyMotion {
-            coordinates,
-            rates,
-            laws: &laws,
-        };
-        let mut joint_loads = vec![0.0; self.layout.joint_loads.len()];
-        assembly.joint_loads(motion, &self.state.memory, &mut joint_loads);
-        let mut accelerations = vec![0.0; assembly.size()];
-        assembly.accelerations(motion, loads, &joint_loads, &mut accelerations);
-        let supplied = assembly.supplied_power(rates, loads);
-        let dissipated = assembly.dissipated_power(motion, &self.state.memory);
-        self.state.supplied_j += rest_s * supplied;
-        self.state.dissipated_j += rest_s * dissipated;
-        let (coordinates, rates) = self.state.motion.split_at_mut(assembly.size());
-        for (i, acceleration) in accelerations.into_iter().enumerate() {
-            coordinates[i] += rest_s * rates[i];
-            rates[i] += rest_s * acceleration;
-        }
-    }
-
-    /// Refuses a state of which a number is no finite one.
-    fn check_finite(&self, time_s: f64) -> Result<(), Refusal> {
-        let energies = [self.state.supplied_j, self.state.dissipated_j];
-        let mut all = self.state.motion.iter().chain(&energies);
-        let name = if let Some(place) = all.position(|number| !number.is_finite()) {
+    /// Refuses states of which a number is no finite one: q, q̇ and the energies at `states`, and what the laws remember.
+    fn check_finite(
+        &self,
+        states: &[f64],
+        memory: &[DofMemory],
+        time_s: f64,
+    ) -> Result<(), Refusal> {
+        let name = if let Some(place) = states.iter().position(|number| !number.is_finite()) {
             self.state_name(place)
         } else {
-            let mut laws = self.file.assembly.laws().zip(&self.state.memory);
+            let mut laws = self.file.assembly.laws().zip(memory);
             if laws.all(|(laws, memory)| laws.is_memory_finite(memory)) {
                 return Ok(());
             }
             Name::Borrowed("of a joint")
         };
         Err(Refusal::StateNotFinite { name, time_s })
+    }
+
+    /// The same of where a step has come to.
+    fn check_end(&self, coordinates: &AssemblyCoordinates, time_s: f64) -> Result<(), Refusal> {
+        let own = &self.state;
+        // where squares are finite so is all that is seen of them
+        let squares: f64 = own.motion.iter().map(|z| z * z).sum();
+        if (squares + own.balance_j + own.supplied_j).is_finite() {
+            return self.check_finite(&[], &own.memory, time_s);
+        }
+        let state = coordinates.state(own);
+        let mut states = state.motion;
+        states.extend([state.supplied_j, state.dissipated_j]);
+        self.check_finite(&states, &own.memory, time_s)?;
+        Err(Refusal::StateNotFinite {
+            name: self.state_name(0),
+            time_s,
+        })
     }
 
     /// Name of the state at this place: coordinates, rates, energies.
@@ -183,8 +194,9 @@ impl Model for AssemblyModel {
     }
 
     fn check_states(&mut self, values: &Values) -> Outcome {
-        self.take_state(values);
-        self.check_finite(values[TIME])?;
+        let layout = &self.layout;
+        let states = &values.listed()[layout.coordinates.start..layout.energies.end];
+        self.check_finite(states, values.memories(), values[TIME])?;
         Ok(None)
     }
 
@@ -204,11 +216,19 @@ impl Model for AssemblyModel {
                 .collect(),
         };
         let about_n_m = memory::about_n_m(self.calculated(&[]), values, is_held);
-        self.take_state(values);
-        let steps = self.lengths.of(&self.file.assembly, about_n_m, step)?;
+        self.take_memory(values);
+        if !places::are_about(&about_n_m, &self.layout, values) {
+            // from one place to another by the states
+            self.places.settle(&self.file, &self.layout, values);
+        }
+        let place = self.places.of(&self.file, &about_n_m);
+        if !place.take(&self.layout, values, &mut self.state) {
+            place.enter(&self.layout, values, &mut self.state);
+        }
+        let steps = self.lengths.of(&place, step)?;
         let h = steps.length_s();
         let (first, listed) = (self.layout.loads.start, values.listed());
-        steps.step_along(&mut self.state, |power, load| {
+        let course = |power: usize, load: usize| {
             let place = first + load;
             match power.checked_sub(1) {
                 None => listed[place],
@@ -218,19 +238,27 @@ impl Model for AssemblyModel {
                     derivatives[order] * h.powi(order as i32 + 1)
                 }
             }
-        });
+        };
+        steps.step_along(&mut self.state, course);
         let was_too_long = steps.was_too_long();
         if h != step.interval_s {
-            self.go_on(values, step.interval_s - h);
+            let end = |load: usize| {
+                let [w0, w1, w2, w3] = [0, 1, 2, 3].map(|power| course(power, load));
+                w0 + w1 + w2 / 2.0 + w3 / 6.0
+            };
+            steps.creep(&mut self.state, step.interval_s - h, |power, load| {
+                if power == 0 { end(load) } else { 0.0 }
+            });
         }
-        self.check_finite(step.time_s + step.interval_s)?;
+        self.check_end(&place.coordinates, step.time_s + step.interval_s)?;
         if was_too_long {
             return Err(Refusal::TooLongForJoints {
                 interval_s: step.interval_s,
                 time_s: step.time_s,
             });
         }
-        self.write_state(values);
+        place.put(&self.layout, &self.state, values);
+        self.write_memory(values);
         memory::stay(self.calculated(&[]), values, &Stayed::Ended(ended_n_m));
         Ok(None)
     }
@@ -253,24 +281,28 @@ impl Model for AssemblyModel {
         memory::look_ahead(self.calculated(&self.laws(values)), values, true);
     }
 
+    fn settle(&self, values: &mut Values) {
+        self.places.settle(&self.file, &self.layout, values);
+    }
+
+    fn restored(&mut self, values: &Values) {
+        self.places.prepare(&self.file, &self.layout, values);
+    }
+
     fn calculate_outputs(&self, values: &mut Values) {
         let laws = self.laws(values);
         let calculated = self.calculated(&laws);
         let first_energy = values[FIRST_ENERGY];
-        let present = memory::present(calculated, values);
+        let present = self.write_outputs(calculated, values);
         let (listed, committed) = values.listed_beside_memory();
         let memory = present.as_deref().unwrap_or(committed);
-        calculated.write(listed, memory);
         calculated.write_apart(listed, memory, first_energy);
         memory::write_indicators(calculated, values);
     }
 
     fn calculate_loads(&self, values: &mut Values, _: bool) -> bool {
         let laws = self.laws(values);
-        let calculated = self.calculated(&laws);
-        let present = memory::present(calculated, values);
-        let (listed, committed) = values.listed_beside_memory();
-        calculated.write(listed, present.as_deref().unwrap_or(committed));
+        self.write_outputs(self.calculated(&laws), values);
         false
     }
 

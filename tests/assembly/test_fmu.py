@@ -69,3 +69,51 @@ def test_the_fmu_is_the_history_of_respond(run, slave, tmp_path, beams, cubic):
         found = fmu.get("tip.y", "tip.v", "energy.stored", "energy.supplied", "energy.dissipated")
         scale = np.abs(rows[:, 2:]).max(axis=0)
         assert (np.abs(found - row[2:]) <= 1e-12 * scale).all()
+
+
+def written(fmu):
+    api = fmu.fmu
+    if fmu.is_fmi2:
+        return api.serializeFMUstate(api.getFMUstate())
+    return api.serializeFMUState(api.getFMUState())
+
+
+def take(fmu, kept):
+    api = fmu.fmu
+    if fmu.is_fmi2:
+        api.setFMUstate(api.deSerializeFMUstate(kept))
+    else:
+        api.setFMUState(api.deserializeFMUState(kept))
+
+
+@both_versions
+@pytest.mark.parametrize("step", [2e-5, 1 / 30000])
+def test_states_that_are_read_leave_no_trace(slave, tmp_path, beams, step):
+    """The library tells them where they are asked for, and goes on in its own coordinates; the joint is not linear."""
+    path = write(tmp_path, beams, history(1, 1, 1), "modes = 30", 4e15)
+    curious, silent, restored = slave(path), slave(path), slave(path)
+    states = [v.name for v in curious.description.modelVariables if v.name.startswith("modal.")]
+    assert len(states) > 100
+    told = [*states, "energy.supplied", "energy.dissipated"]
+    seen = ["tip.y", "tip.v", "energy.stored", *told]
+    for fmu in (curious, silent):
+        fmu.initialise(**{"push.F": 30.0})
+    outputs = []
+    for place in range(60):
+        for fmu in (curious, silent):
+            fmu.step(place * step, step)
+        outputs.append(curious.get("tip.y", "tip.v"))
+        curious.get(*told)
+        assert silent.get("tip.y", "tip.v") == outputs[-1]
+        if place == 30:
+            # in bytes, to an instance that has never taken a step
+            restored.initialise()
+            kept = written(curious)
+            assert written(silent) == kept
+            take(restored, kept)
+            assert restored.get(*seen) == curious.get(*seen)
+        if place > 30:
+            restored.step(place * step, step)
+    found = curious.get(*seen)
+    assert np.abs(found).max() > 0
+    assert silent.get(*seen) == found and restored.get(*seen) == found

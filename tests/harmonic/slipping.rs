@@ -8,6 +8,7 @@ use bolted_joint::harmonic::{
 use bolted_joint_dynamics::law::{BoucWen, Dahl, DofLaws, Iwan, Jenkins, LuGre, Valanis};
 use bolted_joint_dynamics::{Body, JointLaw, Lap, LapMoment, LapState, LapStepper, Linear};
 use num_complex::Complex64;
+use rayon::prelude::*;
 
 const SPAN: f64 = 1.316_129_032_258_1;
 
@@ -214,7 +215,7 @@ fn follow(
 
 #[test]
 fn several_harmonics_are_those_of_the_time_history() {
-    for (law, load, omega) in laws() {
+    laws().into_par_iter().for_each(|(law, load, omega)| {
         let lap = oscillator(law, 0.01);
         // the low frequency beside has a third harmonic near resonance
         for omega in [omega, 0.31] {
@@ -233,7 +234,7 @@ fn several_harmonics_are_those_of_the_time_history() {
                 );
             }
         }
-    }
+    });
 }
 
 /// By 800 sliders in place of the law and 1024 samples of two periods, in Python. Fewer sliders are further away: 200 give

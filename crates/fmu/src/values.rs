@@ -47,8 +47,8 @@ pub(crate) struct Values {
 /// How an assembly goes on from step to step: in coordinates of its own, from which its states follow where somebody asks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Underway {
-    /// Coordinates of the motion, then heat with the energy of the linear part (J), the preloads (N·m) that the coordinates belong
-    /// to, and at last 1 where these numbers are the state and the states that are listed may be old; 0 where it is these.
+    /// Coordinates of the motion, then heat with the energy of the linear part (J), work of the loads (J), the preloads (N·m) that the
+    /// coordinates belong to, and at last 1 where these numbers are the state and the states that are listed may be old; 0 where it is these.
     numbers: Vec<f64>,
     /// Whether the states that are listed have been told since.
     is_told: bool,

@@ -110,7 +110,7 @@ impl ListedVariables {
             let all = self.variables.iter();
             all.filter(|variable| variable.role == role).count()
         };
-        count(Role::State).saturating_sub(1) + count(Role::LimitedInput) + 1
+        count(Role::State) + count(Role::LimitedInput) + 1
     }
 
     /// Whether it is a state that may be told only where it is asked for.

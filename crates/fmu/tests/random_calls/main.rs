@@ -23,6 +23,8 @@ use calls::{Choices, Tally, World};
 
 /// Turns in a sequence, which starts without instances and ends without any.
 const TURNS: u64 = 1000;
+/// Threads that make the calls.
+const SHARES: u64 = 4;
 /// Seed of the first sequence, if none is given.
 const FIRST_SEED: u64 = 0xb017_0000;
 
@@ -65,11 +67,31 @@ fn sequences(first_seed: u64, calls: u64) -> Tally {
     tally
 }
 
+/// Likewise in [`SHARES`], each with seeds of its own: the same calls on any number of processors.
+fn shared(first_seed: u64, calls: u64) -> Tally {
+    if calls < SHARES {
+        return sequences(first_seed, calls);
+    }
+    let shares: Vec<Tally> = thread::scope(|scope| {
+        let share = |number| move || sequences(first_seed + (number << 32), calls / SHARES);
+        let threads: Vec<_> = (0..SHARES)
+            .map(|number| scope.spawn(share(number)))
+            .collect();
+        threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap())
+            .collect()
+    });
+    let mut tally = Tally::default();
+    shares.iter().for_each(|share| tally.add(share));
+    tally
+}
+
 #[test]
 fn a_million_random_calls_keep_every_promise() {
     prepare();
     let calls = number("BOLTED_JOINT_CALLS", 1_000_000);
-    let tally = sequences(number("BOLTED_JOINT_SEED", FIRST_SEED), calls);
+    let tally = shared(number("BOLTED_JOINT_SEED", FIRST_SEED), calls);
     println!(
         "digest {:#x}: {} calls, {} failed simulations, {} forged states accepted, {} intermediate updates, {} refusals without a word",
         tally.digest,

@@ -48,7 +48,7 @@ impl Place {
         values: &Values,
         state: &mut Underway,
     ) -> bool {
-        let Some((own, [balance_j, about_n_m @ ..])) = parts(values, layout) else {
+        let Some((own, [balance_j, supplied_j, about_n_m @ ..])) = parts(values, layout) else {
             return false;
         };
         if about_n_m != self.about_n_m {
@@ -56,7 +56,7 @@ impl Place {
         }
         state.motion.copy_from_slice(own);
         state.balance_j = *balance_j;
-        state.supplied_j = values.listed()[layout.energies.start];
+        state.supplied_j = *supplied_j;
         true
     }
 
@@ -76,12 +76,12 @@ impl Place {
 
     /// Writes motion and energies to values, which are underway in this place from now on.
     pub(super) fn put(&self, layout: &AssemblyLayout, state: &Underway, values: &mut Values) {
-        values.listed_mut()[layout.energies.start] = state.supplied_j;
         values.underway_mut().go_on(|numbers| {
             let (own, rest) = numbers.split_at_mut(2 * layout.coordinates.len());
             own.copy_from_slice(&state.motion);
-            if let [balance_j, about_n_m @ ..] = rest {
+            if let [balance_j, supplied_j, about_n_m @ ..] = rest {
                 *balance_j = state.balance_j;
+                *supplied_j = state.supplied_j;
                 about_n_m.copy_from_slice(&self.about_n_m);
             }
         });
@@ -143,7 +143,7 @@ impl Places {
         layout: &AssemblyLayout,
         values: &Values,
     ) {
-        if let Some((_, [_, about_n_m @ ..])) = parts(values, layout) {
+        if let Some((_, [_, _, about_n_m @ ..])) = parts(values, layout) {
             self.of(file, about_n_m);
         }
     }
@@ -156,7 +156,7 @@ impl Places {
         values: &mut Values,
         of: impl FnOnce(&Place, &mut Values),
     ) -> bool {
-        let Some((_, [_, about_n_m @ ..])) = parts(values, layout) else {
+        let Some((_, [_, _, about_n_m @ ..])) = parts(values, layout) else {
             return false;
         };
         match self.0.iter().find(|own| own.about_n_m == about_n_m) {
@@ -186,13 +186,14 @@ impl Places {
         }
         self.with(file, layout, values, |place, values| {
             let (listed, underway) = values.listed_beside_underway();
-            let Some((own, [balance_j, ..])) = parts_of(underway, layout) else {
+            let Some((own, [balance_j, supplied_j, ..])) = parts_of(underway, layout) else {
                 return;
             };
             let motion = &mut listed[layout.coordinates.start..layout.rates.end];
             place.coordinates.write_motion(own, motion);
             let dissipated_j = place.coordinates.dissipated_j(*balance_j, motion);
-            listed[layout.energies.start + 1] = dissipated_j;
+            let energies = &mut listed[layout.energies.clone()];
+            energies.copy_from_slice(&[*supplied_j, dissipated_j]);
         });
         values.underway_mut().tell();
     }
@@ -200,11 +201,11 @@ impl Places {
 
 /// Whether values are underway in coordinates about these preloads (N·m).
 pub(super) fn are_about(about_n_m: &[f64], layout: &AssemblyLayout, values: &Values) -> bool {
-    parts(values, layout).is_some_and(|(_, rest)| rest.get(1..) == Some(about_n_m))
+    parts(values, layout).is_some_and(|(_, rest)| rest.get(2..) == Some(about_n_m))
 }
 
-/// Of values that are underway, the coordinates, and after them heat with the energy of the linear part (J) and the preloads (N·m)
-/// about which the coordinates are.
+/// Of values that are underway, the coordinates, and after them heat with the energy of the linear part (J), work of the loads (J)
+/// and the preloads (N·m) about which the coordinates are.
 fn parts<'v>(values: &'v Values, layout: &AssemblyLayout) -> Option<(&'v [f64], &'v [f64])> {
     parts_of(values.underway(), layout)
 }

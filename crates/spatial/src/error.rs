@@ -52,6 +52,15 @@ pub enum SpatialError {
         "no start of the search gives finite functions of the assembly; check the units of the files and the interface's length"
     )]
     NoStart,
+    /// No start leads to a minimum, and where the search ended the functions say nothing of some unknowns.
+    #[error(
+        "none of the {tried} starts of the search led to a joint that explains the functions; check directions, positions, signs and \
+         gains of the set-up (warnings name what fits least), or state larger errors of it in budget"
+    )]
+    NothingFound {
+        /// Starts.
+        tried: usize,
+    },
     /// An interface of a chain.
     #[error("{name}: {source}")]
     Interface {

@@ -80,7 +80,10 @@ impl SpatialStudy {
             Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(&rms, part)?,
             _ => self.beside_exact(&rms)?,
         };
-        self.result(&found)
+        self.result(&found).map_err(|error| match error {
+            SpatialError::NotDetermined => undetermined(found.joint.has_converged, found.starts),
+            other => other,
+        })
     }
 
     /// Where the substructures' functions are exact.
@@ -121,7 +124,8 @@ impl SpatialStudy {
         let at = with_joint(&best.unknowns, &unknowns);
         Ok(Found {
             joint: Refined {
-                covariance: covariance(&normal.information).ok_or(SpatialError::NotDetermined)?,
+                covariance: covariance(&normal.information)
+                    .ok_or_else(|| undetermined(best.has_converged, starts))?,
                 squares: cost(problem, &at, &level)?,
                 numbers: problem.numbers(),
                 kept: (0..problem.frequency_hz.len()).collect(),
@@ -185,7 +189,8 @@ impl SpatialStudy {
         let moved: f64 = moved.iter().map(|moved| moved.powi(2)).sum();
         Ok(Found {
             joint: Refined {
-                covariance: covariance(&normal.information).ok_or(SpatialError::NotDetermined)?,
+                covariance: covariance(&normal.information)
+                    .ok_or_else(|| undetermined(has_converged, starts))?,
                 squares: normal.cost + squares_of_errors(problem, &best.unknowns),
                 numbers: squares.numbers(),
                 moved: (moved / kept.len().max(1) as f64).sqrt(),
@@ -289,4 +294,12 @@ fn with_joint(all: &Unknowns, joint: &Unknowns) -> Unknowns {
     let mut own = all.clone();
     own.0.rows_mut(0, joint.0.len()).copy_from(&joint.0);
     own
+}
+
+/// Why there is no covariance: where a search has come to nothing that lies at what was found, and not at the functions.
+fn undetermined(has_converged: bool, [tried, _]: [usize; 2]) -> SpatialError {
+    match has_converged {
+        true => SpatialError::NotDetermined,
+        false => SpatialError::NothingFound { tried },
+    }
 }

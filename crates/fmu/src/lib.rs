@@ -21,5 +21,6 @@ mod preload_table;
 mod refusal;
 mod resources;
 mod start_file;
+mod underway;
 mod values;
 mod version;

@@ -17,6 +17,7 @@ use crate::interface::{
     FIRST_LISTED, FURTHER, InterfaceType, REFERENCE_COUNT, VALUE_COUNT, Variables, first_row,
     reference::{INNER_RATES, INNER_STATES, LAW_MEMORY, TIME},
 };
+use crate::underway::Underway;
 
 /// Number of values that every FMU has room for.
 const COMMON_COUNT: usize = VALUE_COUNT - FURTHER_COUNT;
@@ -42,67 +43,6 @@ pub(crate) struct Values {
     /// Of an assembly.
     underway: Underway,
     inner: Inner,
-}
-
-/// How an assembly goes on from step to step: in coordinates of its own, from which its states follow where somebody asks.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Underway {
-    /// Coordinates of the motion, then heat with the energy of the linear part (J), work of the loads (J), the preloads (N·m) that the
-    /// coordinates belong to, and at last 1 where these numbers are the state and the states that are listed may be old; 0 where it is these.
-    numbers: Vec<f64>,
-    /// Whether the states that are listed have been told since.
-    is_told: bool,
-}
-
-impl Underway {
-    fn of(variables: &Variables) -> Self {
-        let count = match variables {
-            Variables::Built(_) => 0,
-            Variables::Listed(listed) => listed.underway(),
-        };
-        Self {
-            numbers: vec![0.0; count],
-            is_told: false,
-        }
-    }
-
-    /// The numbers from which the assembly goes on; `None` where it goes on from the states that are listed.
-    #[inline]
-    pub(crate) fn numbers(&self) -> Option<&[f64]> {
-        let (last, numbers) = self.numbers.split_last()?;
-        (*last != 0.0).then_some(numbers)
-    }
-
-    /// Whether the states that are listed are old.
-    #[inline]
-    pub(crate) fn is_untold(&self) -> bool {
-        !self.is_told && self.numbers().is_some()
-    }
-
-    /// Goes on from these numbers, which `write` writes.
-    pub(crate) fn go_on(&mut self, write: impl FnOnce(&mut [f64])) {
-        if let Some((last, numbers)) = self.numbers.split_last_mut() {
-            write(numbers);
-            *last = 1.0;
-        }
-        self.is_told = false;
-    }
-
-    /// Takes note that the states that are listed are those of these numbers.
-    pub(crate) fn tell(&mut self) {
-        self.is_told = true;
-    }
-
-    /// Takes note that they are not, or need not be.
-    pub(crate) fn forget(&mut self) {
-        self.is_told = false;
-    }
-
-    /// Goes on from the states that are listed.
-    pub(crate) fn end(&mut self) {
-        self.numbers.fill(0.0);
-        self.is_told = false;
-    }
 }
 
 /// What event indicators of a DOF follow from: the direction in which the joint has moved since it last turned (1 or -1; 0
@@ -514,21 +454,21 @@ impl Values {
     /// What is remembered of the joint, and how an assembly goes on, as numbers.
     pub(crate) fn remembered(&self) -> impl Iterator<Item = f64> + '_ {
         let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());
-        let all = joint.iter().chain(ahead).chain(&self.underway.numbers);
+        let all = joint.iter().chain(ahead).chain(self.underway.all());
         all.copied()
     }
 
     /// How many numbers that are.
     pub(crate) fn remembered_count(&self) -> usize {
         let (joint, ahead) = (self.joint.as_flattened(), self.ahead.as_flattened());
-        joint.len() + ahead.len() + self.underway.numbers.len()
+        joint.len() + ahead.len() + self.underway.all().len()
     }
 
     /// The same, to be written.
     pub(crate) fn remembered_mut(&mut self) -> impl Iterator<Item = &mut f64> {
         let joint = self.joint.as_flattened_mut().iter_mut();
         let ahead = self.ahead.as_flattened_mut();
-        joint.chain(ahead).chain(&mut self.underway.numbers)
+        joint.chain(ahead).chain(self.underway.all_mut())
     }
 }
 

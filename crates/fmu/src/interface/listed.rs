@@ -104,7 +104,7 @@ impl ListedVariables {
 
     /// How many numbers the steps of what is listed go on from, beside what the laws remember: see [`Underway`].
     ///
-    /// [`Underway`]: crate::values::Underway
+    /// [`Underway`]: crate::underway::Underway
     pub(crate) fn underway(&self) -> usize {
         let count = |role| {
             let all = self.variables.iter();

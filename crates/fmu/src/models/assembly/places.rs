@@ -10,7 +10,7 @@ use bolted_joint_dynamics::{
 };
 
 use super::layout::AssemblyLayout;
-use crate::{assembly_file::AssemblyFile, interface::Values, values};
+use crate::{assembly_file::AssemblyFile, interface::Values, underway};
 
 /// So many are kept: of an assembly over the preload there are some, of others one.
 const KEPT: usize = 4;
@@ -211,7 +211,7 @@ fn parts<'v>(values: &'v Values, layout: &AssemblyLayout) -> Option<(&'v [f64], 
 }
 
 fn parts_of<'v>(
-    underway: &'v values::Underway,
+    underway: &'v underway::Underway,
     layout: &AssemblyLayout,
 ) -> Option<(&'v [f64], &'v [f64])> {
     let numbers = underway.numbers()?;

@@ -189,21 +189,14 @@ def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
 
 
 @pytest.mark.long
-def test_errors_beyond_the_budget_are_told(program, tmp_path):
+def test_errors_beyond_the_budget_are_told(run, tmp_path):
     """Positions 3 mm off where 0.1 mm is stated, and the like."""
     rig, rng = Rig(K, C), np.random.default_rng(6)
     rows = [rig.rows(side, (rng, 3e-3, 0.05, 0.03)) for side in range(2)]
     budget = "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"
     rig.write(tmp_path, FREQUENCIES[::3], noise=0.002, rng=rng, rows=rows, more=budget)
-    command = [program, "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json"]
-    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
-    if done.returncode == 1:
-        assert "led to a joint that explains the functions; check directions" in done.stderr
-        assert not (tmp_path / "j.joint.json").exists()
-    else:
-        assert done.returncode == 3, done.stderr
-        reasons = " ".join(json.loads(done.stdout)["reasons_against"])
-        assert "state larger ones in budget" in reasons or "does not explain the residuals" in reasons, reasons
+    reasons = " ".join(identified(run, tmp_path, expect=3)["reasons_against"])
+    assert "state larger ones in budget" in reasons or "does not explain the residuals" in reasons, reasons
 
 
 @pytest.mark.parametrize(

@@ -233,6 +233,7 @@ impl SpatialStudy {
             alone.unknowns.0.clone(),
             &spread.all,
             &spread.by_noise,
+            alone.has_converged,
         )?;
         let group = |(name, added): &(String, DMatrix<f64>)| {
             let share = |n: usize| added[(n, n)] / spread.all[(n, n)];

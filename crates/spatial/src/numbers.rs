@@ -24,22 +24,25 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// From a joint's own unknowns, their covariance, and that of noise alone.
+    /// From a joint's own unknowns, their covariance, and that of noise alone. Where a search has come to nothing the covariance may
+    /// have no inverse, and no joint is the nearest: the free one then stands there, which is refused in any case.
     pub(crate) fn of(
         joint: &Sought<'_>,
         free: DVector<f64>,
         all: &DMatrix<f64>,
         by_noise: &DMatrix<f64>,
+        has_converged: bool,
     ) -> Result<Self, SpatialError> {
         let model = joint.model;
         let count = model.count();
         let passive = match is_passive(model, &free) {
             true => free.clone(),
-            false => {
-                let information = covariance(all).ok_or(SpatialError::NotDetermined)?;
-                nearest(model, &free, &information, joint.link.length_m)
-                    .unwrap_or_else(|| free.clone())
-            }
+            false => match covariance(all) {
+                Some(information) => nearest(model, &free, &information, joint.link.length_m)
+                    .unwrap_or_else(|| free.clone()),
+                None if has_converged => return Err(SpatialError::NotDetermined),
+                None => free.clone(),
+            },
         };
         let matrices = |unknowns: &DVector<f64>| -> Result<[Matrix6<f64>; 2], SpatialError> {
             let (stiffness, damping) = unknowns.as_slice().split_at(count);

@@ -194,7 +194,7 @@ fn found(
         free,
         correlation,
         ..
-    } = Numbers::of(joint, free, &own, &own)?;
+    } = Numbers::of(joint, free, &own, &own, true)?;
     Ok(FoundJoint {
         key: joint.link.key.clone(),
         number: joint.number + 1,

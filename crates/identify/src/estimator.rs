@@ -105,6 +105,8 @@ const NEGLIGIBLE_GAIN: f64 = 1e-13;
 /// The same where corrections of the substructures follow each step, as a part of a residual's mean square: a hundredth of a
 /// standard deviation.
 const NEGLIGIBLE_GAIN_OF_CORRECTED: f64 = 1e-4;
+/// The same between many joints, where steps near the minimum shrink slowly: a thirtieth of a standard deviation.
+const NEGLIGIBLE_GAIN_OF_MANY: f64 = 1e-3;
 /// Change of every unknown, in standard deviations, below which renewing the weights changes nothing that matters.
 const NEGLIGIBLE_SHIFT: f64 = 1e-5;
 /// Gain that is enough before the weights are renewed anyway.
@@ -136,7 +138,7 @@ pub(super) fn estimate(
     let shrinkage = 1.0 - unknowns as f64 / (2 * measurements) as f64;
     let mut converged = false;
     let mut unrest = f64::INFINITY;
-    let mut damping = Damping::FIRST;
+    let mut damping = Damping::first(objective);
     for round in 0..MAX_REWEIGHTINGS {
         if !estimates_level {
             let near = follow(objective, levels, chart, (coordinates, weights, state))?;
@@ -182,7 +184,8 @@ pub(super) fn estimate(
             ..
         } = rest.state;
         (weights, state) = objective.renewed(levels, unknowns, Some(corrections))?;
-        if (is_trial || !objective.is_independent()) && !settled {
+        let is_long = !objective.is_independent() || objective.has_many_joints();
+        if (is_trial || is_long) && !settled {
             // It wanders, and renewed weights would not lead it back.
             break;
         }
@@ -274,11 +277,12 @@ fn follow(
 }
 
 fn negligible_gain(objective: &Objective<'_>) -> f64 {
-    if objective.is_independent() {
-        NEGLIGIBLE_GAIN
-    } else {
-        NEGLIGIBLE_GAIN_OF_CORRECTED / objective.measurements() as f64
-    }
+    let of_each = match (objective.is_independent(), objective.has_many_joints()) {
+        (true, false) => return NEGLIGIBLE_GAIN,
+        (true, true) => NEGLIGIBLE_GAIN_OF_MANY,
+        (false, _) => NEGLIGIBLE_GAIN_OF_CORRECTED,
+    };
+    of_each / objective.measurements() as f64
 }
 
 /// Levels to begin with: what is not stated is proportional to the receptance, unless that is stated to be exact.
@@ -299,7 +303,7 @@ pub(super) fn minimum(
     let state = objective.at(weights, start.clone(), None)?;
     let control = Control {
         negligible_gain: GAIN_BEFORE_RENEWAL,
-        damping: Damping::FIRST,
+        damping: Damping::first(objective),
         most: most_iterations(objective),
     };
     let rest = levenberg_marquardt(objective, weights, &Free, start, state, control);

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::estimator::Chart;
+use super::normal::Normal;
 use super::objective::{Objective, State, Weights};
 
 /// Less than this changes no step.
 const LEAST: f64 = 1e-15;
-/// After a refused step: less than this would lead to the same place again.
-const LEAST_THAT_SHORTENS: f64 = 1e-6;
 /// More than this, and the step is as good as none.
 const MOST: f64 = 1e12;
 /// Parts of the promised gain from which on the model is trusted far, or as far as before.
@@ -18,51 +17,82 @@ const GOOD: f64 = 0.75;
 const FAIR: f64 = 0.25;
 /// Promised gain, as a fraction of the cost, that is none where no damped step lowers the cost any more: rounding of the sum hides gains of this size.
 const HIDDEN_GAIN: f64 = 1e-12;
-
 /// The damping of an iteration, a fraction of the diagonal of JᵀJ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Damping {
     pub(super) value: f64,
     /// By how much the next refused step raises it.
     raise: f64,
+    ways: Ways,
 }
+
+/// How damping follows what steps come to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Ways {
+    /// Factor after a step that gained what it promised.
+    fall: f64,
+    /// After a refused step: less than this would lead to the same place again.
+    least_that_shortens: f64,
+}
+
+/// Few unknowns are told well: all eigenvalues of JᵀJ, in columns of unit length, are far above these.
+const OF_WIDE_VALLEYS: Ways = Ways {
+    fall: 0.01,
+    least_that_shortens: 1e-6,
+};
+/// Valleys of many unknowns have eigenvalues of 1e-8 and less, which damping has to find.
+const OF_NARROW_VALLEYS: Ways = Ways {
+    fall: 0.1,
+    least_that_shortens: 1e-10,
+};
 
 /// By how much the first refused step raises it, and by how much more each further one.
 const RAISE: f64 = 10.0;
+/// That of the first step.
+const FIRST: f64 = 1e-3;
 
 impl Damping {
     /// That of the first step.
-    pub(super) const FIRST: Self = Self::of(1e-3);
+    pub(super) fn first(objective: &Objective<'_>) -> Self {
+        let ways = if objective.has_many_joints() {
+            OF_NARROW_VALLEYS
+        } else {
+            OF_WIDE_VALLEYS
+        };
+        Self::of(FIRST, ways)
+    }
 
-    const fn of(value: f64) -> Self {
+    const fn of(value: f64, ways: Ways) -> Self {
         Self {
             value,
             raise: RAISE,
+            ways,
         }
     }
 
     /// After a step that was taken and gained this part of what it promised.
     pub(super) fn taken(self, part_of_promise: f64) -> Self {
         let factor = match part_of_promise {
-            part if part > GOOD => 0.01,
+            part if part > GOOD => self.ways.fall,
             part if part > FAIR => 0.2,
             _ => 1.0,
         };
-        Self::of((self.value * factor).max(LEAST))
+        Self::of((self.value * factor).max(LEAST), self.ways)
     }
 
     /// After a refused step; `None` where no shorter one is worth a trial.
     pub(super) fn refused(self) -> Option<Self> {
-        let more = (self.raise * self.value).max(LEAST_THAT_SHORTENS);
+        let more = (self.raise * self.value).max(self.ways.least_that_shortens);
         (more <= MOST).then_some(Self {
             value: more,
             raise: self.raise * RAISE,
+            ways: self.ways,
         })
     }
 
     /// What the next iteration begins with.
     pub(super) fn for_the_next(self) -> Self {
-        Self::of(self.value.min(Self::FIRST.value))
+        Self::of(self.value.min(FIRST), self.ways)
     }
 }
 
@@ -94,6 +124,48 @@ fn wanders(promises: &[f64]) -> bool {
     before.is_some_and(|before| promises.last() > Some(&(0.5 * promises[before])))
 }
 
+/// Length of what bends a step, as a part of the step's own, beyond which second derivatives do not say enough.
+const BENT_MOST: f64 = 0.75;
+
+/// Gain that makes a step worth bending, as a part of a residual's mean square.
+const LONG: f64 = 1e-3;
+
+/// A step that may be taken.
+struct Step {
+    coordinates: DVector<f64>,
+    /// Gain that it promises in the linearised model.
+    promised: f64,
+}
+
+/// The damped step from these coordinates, bent as the assembly's receptances bend along it; `None` where it is singular.
+fn stepped(
+    objective: &Objective<'_>,
+    weights: &[Weights],
+    chart: &dyn Chart,
+    (coordinates, normal): (&DVector<f64>, &Normal),
+    damping: Damping,
+) -> Option<Step> {
+    let straight = normal.step(damping.value)?;
+    let promised = normal.gain(&straight, damping.value);
+    let is_long = promised * objective.measurements() as f64 > LONG * normal.cost;
+    let is_in_unknowns = || chart.derivative(coordinates).is_none();
+    let bend = || {
+        let right = objective.bend(weights, coordinates, &straight)?;
+        let bend = normal.solved(&right, damping.value)? * 0.5;
+        let length = |step: &DVector<f64>| step.component_div(&normal.scale()).norm();
+        (length(&bend) <= BENT_MOST * length(&straight)).then_some(bend)
+    };
+    let bend = (is_long && is_in_unknowns()).then(bend).flatten();
+    let end = coordinates + straight;
+    Some(Step {
+        coordinates: match bend {
+            Some(bend) => end + bend,
+            None => end,
+        },
+        promised,
+    })
+}
+
 /// The iteration from `start` coordinates, at which `state` is.
 pub(super) fn levenberg_marquardt(
     objective: &Objective<'_>,
@@ -113,29 +185,26 @@ pub(super) fn levenberg_marquardt(
     let mut settled = false;
     let mut promises: Vec<f64> = Vec::new();
     for _ in 0..most {
-        if objective.is_of_many_bolts() && wanders(&promises) {
+        if objective.has_many_joints() && wanders(&promises) {
             break;
         }
         if normal.is_settled(&coordinates, negligible_gain) {
             settled = true;
             break;
         }
-        let trial = normal.step(damping.value).map(|step| {
-            let promised = normal.gain(&step, damping.value);
-            (&coordinates + step, promised)
-        });
+        let here = (&coordinates, &normal);
+        let trial = stepped(objective, weights, chart, here, damping);
         let improved = trial
             .as_ref()
-            .map(|(trial, _)| trial)
-            .filter(|trial| objective.is_within_reach(&chart.unknowns(trial)))
+            .filter(|trial| objective.is_within_reach(&chart.unknowns(&trial.coordinates)))
             .and_then(|trial| {
                 let corrections = Some(Arc::clone(&state.corrections));
-                objective.at(weights, chart.unknowns(trial), corrections)
+                objective.at(weights, chart.unknowns(&trial.coordinates), corrections)
             })
             .filter(|next| next.normal.cost <= state.normal.cost * (1.0 + negligible_gain));
-        if let (Some((trial, promised)), Some(next)) = (trial, improved) {
-            coordinates = trial;
-            damping = damping.taken((state.normal.cost - next.normal.cost) / promised);
+        if let (Some(trial), Some(next)) = (trial, improved) {
+            coordinates = trial.coordinates;
+            damping = damping.taken((state.normal.cost - next.normal.cost) / trial.promised);
             state = next;
             normal = state.normal_in(chart, &coordinates);
             promises.extend(normal.promise());
@@ -162,16 +231,16 @@ mod tests {
 
     #[test]
     fn a_model_that_keeps_its_promise_is_trusted_and_one_that_does_not_is_not() {
-        let damping = Damping::FIRST;
+        let damping = Damping::of(FIRST, OF_WIDE_VALLEYS);
         assert!(damping.taken(1.0).value < damping.taken(0.5).value);
         assert_eq!(damping.taken(0.1), damping);
         assert!(damping.refused().unwrap().value > damping.value);
-        assert_eq!(Damping::of(LEAST).taken(1.0).value, LEAST);
+        assert_eq!(Damping::of(LEAST, OF_WIDE_VALLEYS).taken(1.0).value, LEAST);
     }
 
     #[test]
     fn few_refusals_shorten_a_step_to_nothing() {
-        let mut damping = Damping::of(LEAST);
+        let mut damping = Damping::of(LEAST, OF_WIDE_VALLEYS);
         let mut count = 0;
         while let Some(more) = damping.refused() {
             damping = more;
@@ -179,6 +248,9 @@ mod tests {
         }
         assert!(count < 8, "{count}");
         // a step that is taken begins anew
-        assert_eq!(damping.taken(0.1), Damping::of(damping.value));
+        assert_eq!(
+            damping.taken(0.1),
+            Damping::of(damping.value, OF_WIDE_VALLEYS)
+        );
     }
 }

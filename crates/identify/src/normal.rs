@@ -51,16 +51,21 @@ impl Normal {
             .map(|entry| entry.max(f64::MIN_POSITIVE).sqrt().recip())
     }
 
-    /// Solution of (JᵀJ + μ diag JᵀJ) δ = Jᵀ r, in columns of unit length.
+    /// Solution of (JᵀJ + μ diag JᵀJ) δ = Jᵀ r.
     pub(super) fn step(&self, damping: f64) -> Option<DVector<f64>> {
+        self.solved(&self.gradient, damping)
+    }
+
+    /// The same with another right-hand side, in columns of unit length.
+    pub(super) fn solved(&self, right: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
         let scale = self.scale();
         let mut system = scaled_by(&self.matrix, &scale);
         for i in 0..system.nrows() {
             system[(i, i)] += damping;
         }
-        let gradient = self.gradient.component_mul(&scale);
+        let right = right.component_mul(&scale);
         let factor = system.cholesky()?;
-        Some(factor.solve(&gradient).component_mul(&scale))
+        Some(factor.solve(&right).component_mul(&scale))
     }
 
     /// Gain that a step with this damping promises in the linearised model.

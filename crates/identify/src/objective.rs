@@ -249,11 +249,14 @@ impl Objective<'_> {
 
     /// Whether corrections follow more bolts with joints of their own than two.
     pub(super) fn is_of_many_bolts(&self) -> bool {
-        let has_many = self
-            .groups
-            .iter()
-            .any(|group| group.dofs() > DOFS_OF_TWO_BOLTS);
-        has_many && self.entries.iter().all(|place| place.is_single()) && !self.is_independent()
+        self.has_many_joints() && !self.is_independent()
+    }
+
+    /// Whether more bolts than two have joints of their own: some of their unknowns are told by noise alone, nearly.
+    pub(super) fn has_many_joints(&self) -> bool {
+        let mut groups = self.groups.iter();
+        let has_many = groups.any(|group| group.dofs() > DOFS_OF_TWO_BOLTS);
+        has_many && self.entries.iter().all(|place| place.is_single())
     }
 
     /// Whether all entries have errors of their own: no substructure's error is an unknown.

@@ -35,7 +35,7 @@ pub(super) fn robust(
 ) -> Option<Estimate> {
     let first = first_levels(noise);
     let mut unknowns = start.clone();
-    let mut damping = Damping::FIRST;
+    let mut damping = Damping::first(exact);
     let mut converged = false;
     let mut costs: Vec<f64> = Vec::new();
     let mut moved_before = f64::INFINITY;

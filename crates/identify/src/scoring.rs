@@ -48,7 +48,7 @@ pub(super) fn scored(
         coordinates,
         state,
         settled,
-        damping: Damping::FIRST,
+        damping: Damping::first(objective),
     }
 }
 

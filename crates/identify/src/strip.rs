@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use super::block::{Block, Entry};
+use super::factored::Factored;
 use super::kernel::{Small, coupled, dot, filled, matrix, through, times, vector};
 use super::lanes::{Complexes, LANES, Number, Reals};
 use super::layout::Place;
@@ -80,6 +81,15 @@ impl<'b, const N: usize> Strip<'b, N> {
         entries: &[Place],
         unknowns: &[f64],
     ) -> Option<Coupled<N>> {
+        self.begin(first)?;
+        let stiffness = self.complex_stiffness(entries, unknowns);
+        let inverse = coupled(filled::<N>(self.block.dofs), &self.free(), &stiffness)?;
+        Some(Coupled { inverse, stiffness })
+    }
+
+    /// Takes the lines from `first` on; `None` if there are none.
+    #[inline(always)]
+    fn begin(&mut self, first: usize) -> Option<()> {
         let block = self.block;
         self.count = LANES.min(block.lines().checked_sub(first)?);
         let (count, last) = (self.count, self.count.checked_sub(1)?);
@@ -87,23 +97,15 @@ impl<'b, const N: usize> Strip<'b, N> {
         self.index = index;
         self.used = Reals::of(|lane| if lane < count { 1.0 } else { 0.0 });
         self.omega = Reals::of(|lane| block.omega[index[lane]]);
-        let mut stiffness = [[Complexes::ZERO; N]; N];
-        for (t, place) in entries.iter().enumerate() {
-            // K* = K + jωC
-            let value = Complexes {
-                re: Reals::all(unknowns[t]),
-                im: self.omega * Reals::all(unknowns[entries.len() + t]),
-            };
-            for (i, j) in place.all() {
-                stiffness[i][j] = value;
-                stiffness[j][i] = value;
-            }
-        }
-        let dofs = filled::<N>(block.dofs);
-        let free = index.map(|line| block.free_at(line));
-        let free = matrix(dofs, |i, j| Complexes::of(|lane| free[lane][i * dofs + j]));
-        let inverse = coupled(dofs, &free, &stiffness)?;
-        Some(Coupled { inverse, stiffness })
+        Some(())
+    }
+
+    /// F
+    #[inline(always)]
+    pub(super) fn free(&self) -> Small<N, Complexes> {
+        let dofs = filled::<N>(self.block.dofs);
+        let free = self.index.map(|line| self.block.free_at(line));
+        matrix(dofs, |i, j| Complexes::of(|lane| free[lane][i * dofs + j]))
     }
 
     /// Solves the lines from `first` on; `None` where that cannot be done.
@@ -113,20 +115,43 @@ impl<'b, const N: usize> Strip<'b, N> {
         first: usize,
         entries: &[Place],
         unknowns: &[f64],
-    ) -> Option<()> {
-        let Coupled { inverse, stiffness } = self.couple(first, entries, unknowns)?;
+    ) -> Option<Factored<N, Complexes>> {
+        self.begin(first)?;
+        let stiffness = self.complex_stiffness(entries, unknowns);
         let (block, index) = (self.block, self.index);
         let dofs = filled::<N>(block.dofs);
+        let factored = Factored::of(dofs, &self.free(), &stiffness)?;
         let transfer = index.map(|line| block.transfer_at(line));
         let own = self.transfer.iter_mut().zip(&mut self.q).zip(&mut self.x);
         for (point, ((own, q), x)) in own.enumerate() {
             *own = vector(dofs, |i| {
                 Complexes::of(|lane| transfer[lane][point * dofs + i])
             });
-            *q = times(dofs, &inverse, own);
+            *q = factored.solve(dofs, own);
             *x = times(dofs, &stiffness, q);
         }
-        Some(())
+        Some(factored)
+    }
+
+    /// K* = K + jωC of its lines, from the unknowns of one joint.
+    #[inline(always)]
+    pub(super) fn complex_stiffness(
+        &self,
+        entries: &[Place],
+        unknowns: &[f64],
+    ) -> Small<N, Complexes> {
+        let mut stiffness = [[Complexes::ZERO; N]; N];
+        for (t, place) in entries.iter().enumerate() {
+            let value = Complexes {
+                re: Reals::all(unknowns[t]),
+                im: self.omega * Reals::all(unknowns[entries.len() + t]),
+            };
+            for (i, j) in place.all() {
+                stiffness[i][j] = value;
+                stiffness[j][i] = value;
+            }
+        }
+        stiffness
     }
 
     /// A number of each line that is stored line by line and entry by entry.

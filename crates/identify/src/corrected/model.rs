@@ -1,6 +1,7 @@
 //! H^C of lines as they are corrected, with its derivatives by the joint and by the motions.
 
-use super::super::kernel::{coupled, dot, filled, through, times};
+use super::super::factored::Factored;
+use super::super::kernel::{dot, filled, through, times};
 use super::super::lanes::{Complexes, Number, Reals};
 use super::super::motions::{Act, Action, Moved};
 use super::Piece;
@@ -58,10 +59,10 @@ impl<const N: usize> Corrected<'_, N> {
                     stiffness[j][i] = value;
                 }
             }
-            let inverse = coupled(dofs, &member.free[CORRECTED], &stiffness)?;
+            let factored = Factored::of(dofs, &member.free[CORRECTED], &stiffness)?;
             let transfer = &member.transfer[CORRECTED];
             for ((q, x), column) in member.q.iter_mut().zip(&mut member.x).zip(transfer) {
-                *q = times(dofs, &inverse, column);
+                *q = factored.solve(dofs, column);
                 *x = times(dofs, &stiffness, q);
             }
             for (e, entry) in block.entries.iter().enumerate() {

@@ -197,6 +197,30 @@ fn lines_of_prose_are_short() {
     assert!(long.is_empty(), "{long:#?}");
 }
 
+/// What stands for a number or a name that is still to come is written in capitals, or between signs.
+#[test]
+fn nothing_is_left_to_be_filled_in() {
+    let is_open = |word: &str| {
+        let is_name = |word: &str| {
+            let is_long =
+                |part: &str| part.len() > 2 && part.chars().all(|c| c.is_ascii_uppercase());
+            word.contains('_') && word.split('_').all(is_long)
+        };
+        word.contains("@@") || ["TODO", "TBD", "FIXME", "XXX"].contains(&word) || is_name(word)
+    };
+    let mut found = Vec::new();
+    for document in documents() {
+        for (number, line) in document.prose() {
+            let line = without_code(line);
+            let words = line.split(|c: char| !c.is_alphanumeric() && c != '_' && c != '@');
+            for word in words.filter(|word| is_open(word)) {
+                found.push(format!("{}:{number}: {word}", document.name));
+            }
+        }
+    }
+    assert_eq!(found, [""; 0]);
+}
+
 #[test]
 fn the_readme_is_read_in_three_minutes() {
     let readme = Document::read(&root().join("README.md"));

@@ -59,6 +59,35 @@ fn table() -> String {
 }
 
 /// An archive of NumPy with matrices of two masses between three springs.
+/// An FMU that this program did not write.
+fn fmu_of_another_tool() -> Vec<u8> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    archive
+        .start_file("modelDescription.xml", SimpleFileOptions::default())
+        .unwrap();
+    let description = r#"<fmiModelDescription fmiVersion="2.0" modelName="Bouncing Ball" guid="1" generationTool="a tool of theirs">
+        <CoSimulation modelIdentifier="b"/><ModelVariables>
+        <ScalarVariable name="push" valueReference="0" causality="input"><Real/></ScalarVariable>
+        <ScalarVariable name="height" valueReference="1" causality="output"><Real/></ScalarVariable>
+        </ModelVariables></fmiModelDescription>"#;
+    archive.write_all(description.as_bytes()).unwrap();
+    archive.finish().unwrap().into_inner()
+}
+
+/// A study in space before there is a measured assembly.
+const PLAN: &str = "
+method = \"frf-space\"
+name = \"a plan\"
+[a]
+modal = \"a-modes.toml\"
+interface = 2
+[b]
+modal = \"a-modes.toml\"
+interface = 2
+[joint]
+model = \"free\"
+";
+
 fn matrices() -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let mut member = |name: &str, kind: &str, shape: &str, data: Vec<u8>| {
@@ -158,6 +187,13 @@ fn every_kind_of_file_is_described() {
     bench.write("f.mat", MATLAB);
     bench.write("c.uff", COHERENCE);
     bench.done("export j.joint.json -o j.fmu");
+    bench.done("export beams.toml -o beams.fmu");
+    bench.write("ball.fmu", fmu_of_another_tool());
+    bench.write("plan.toml", PLAN);
+    bench.write(
+        "known.toml",
+        PLAN.replace("model = \"free\"", "known = \"j.joint.json\""),
+    );
     #[rustfmt::skip]
     let cases = [
         ("c.uff", ["universal file", "coherence", "of 1 function: lowest"].as_slice()),
@@ -174,12 +210,24 @@ fn every_kind_of_file_is_described() {
         ("jenkins.joint.json", &["jenkins on y: stiffness", "slip_force"]),
         ("over.joint.json", &["nominal 10 N·m", "25 N·m: k_yy = 900000 N/m, c_yy = 8 N·s/m"]),
         ("j.fmu", &["FMU of this program", "linux", "k_yy = 80000 N/m", "bolted-joint check j.fmu"]),
+        ("beams.fmu", &["FMU of a whole assembly", "linux", "1 load", "coordinates of the structures", "bolted-joint check beams.fmu"]),
+        ("ball.fmu", &["FMU of another tool", "Bouncing Ball", "a tool of theirs", "FMI 2.0, Co-Simulation", "push", "height"]),
+        ("plan.toml", &["frf-space", "next", "bolted-joint respond plan.toml --plan"]),
+        ("known.toml", &["frf-space", "bolted-joint respond known.toml -o NAME.csv"]),
     ];
     for (file, fragments) in cases {
         let text = bench.done(&format!("show {file}")).stdout;
         has(&text, fragments);
         assert!(text.lines().count() <= 40, "more than a screen:\n{text}");
     }
+    bench.refused(
+        "check ball.fmu",
+        &[
+            "ball.fmu: found an FMU of another tool (it says \"a tool of theirs\")",
+            "show",
+            "fmpy validate",
+        ],
+    );
     let together = bench.done("show j.joint.json a-modes.toml").stdout;
     has(
         &together,

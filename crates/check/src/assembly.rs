@@ -9,9 +9,8 @@ use roxmltree::Document;
 
 use super::archive::Archive;
 use super::described::{Described, DescribedVariable, FILE};
+use super::inspect::START_FILE;
 use super::{CheckError, attributes, inspect, parts, variables};
-
-const START_FILE: &str = "resources/start.txt";
 
 /// What the FMU of an assembly holds, and what is wrong with it.
 #[derive(Debug)]

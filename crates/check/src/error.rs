@@ -33,6 +33,18 @@ pub enum CheckError {
         /// Path within it.
         entry: &'static str,
     },
+    /// The FMU is of another tool.
+    #[error(
+        "{}: found an FMU of another tool (it says \"{tool}\"), expected one that `bolted-joint export` wrote; `bolted-joint show` \
+         tells what it is, and FMPy's `fmpy validate` looks for faults in any FMU",
+        path.display()
+    )]
+    Foreign {
+        /// The FMU.
+        path: PathBuf,
+        /// The tool that it names.
+        tool: String,
+    },
     /// The joint file within the FMU is not valid.
     #[error("{}: {source}", path.display())]
     JointFile {

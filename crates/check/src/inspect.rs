@@ -9,11 +9,14 @@ use roxmltree::Document;
 
 use super::archive::Archive;
 use super::described::{Described, FILE};
-use super::{CheckError, attributes, parts, variables};
+use super::{CheckError, attributes, foreign, parts, variables};
 use bolted_joint_export::{
     Interface, StartFile, declared, dofs_text, laws_line, start_value, table_lines,
 };
 use bolted_joint_joint::{JointFile, Passivity};
+
+/// What the library reads, in every FMU of this program.
+pub(super) const START_FILE: &str = "resources/start.txt";
 
 /// Start values that a `check` reads back must be the exported ones to this fraction: both are shortest decimals.
 const SAME_START: f64 = 1e-15;
@@ -52,7 +55,9 @@ pub struct Inspection {
 pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
     let mut archive = Archive::open(path)?;
     let xml = archive.text(FILE)?;
-    let start_text = archive.text("resources/start.txt")?;
+    let start_text = archive
+        .text(START_FILE)
+        .map_err(|refused| foreign_or(path, refused))?;
     let joint_text = archive.text("resources/joint.json")?;
     let joint = JointFile::from_json(&joint_text, "resources/joint.json").map_err(|source| {
         CheckError::JointFile {
@@ -63,7 +68,7 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
     let Some(start) = StartFile::parse(&start_text) else {
         return Err(CheckError::Entry {
             path: path.to_owned(),
-            entry: "resources/start.txt",
+            entry: START_FILE,
         });
     };
     let platforms = platforms(&archive.names());
@@ -131,6 +136,17 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
 pub(super) fn is_library(file: &str) -> bool {
     let extension = file.rsplit_once('.').map(|(_, extension)| extension);
     matches!(extension, Some("so" | "dll" | "dylib"))
+}
+
+/// Says of what tool an FMU without a start file is, if its model description says so.
+fn foreign_or(path: &Path, refused: CheckError) -> CheckError {
+    match foreign(path) {
+        Ok(Some(found)) => CheckError::Foreign {
+            path: path.to_owned(),
+            tool: found.tool.unwrap_or_else(|| "another tool".to_owned()),
+        },
+        _ => refused,
+    }
 }
 
 /// Platform folders that hold a library.

@@ -9,6 +9,7 @@ mod assembly;
 mod attributes;
 mod described;
 mod error;
+mod foreign;
 mod inspect;
 mod parts;
 mod reference;
@@ -17,5 +18,6 @@ mod variables;
 
 pub use assembly::{AssemblyInspection, inspect_assembly};
 pub use error::CheckError;
+pub use foreign::{ForeignFmu, foreign};
 pub use inspect::{Inspection, inspect};
 pub use run::{BalanceReport, RunReport, RunVerdict, Runner, execute_script, run, run_assembly};

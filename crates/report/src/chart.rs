@@ -9,7 +9,7 @@ use bolted_joint_figures::{Axis, Look, PathData, Strip, Svg, VALUE_LABELS};
 use num_complex::Complex64;
 
 pub(super) const WIDTH: f64 = 960.0;
-const RIGHT_MARGIN: f64 = 12.0;
+const RIGHT_MARGIN: f64 = 24.0;
 const TOP_MARGIN: f64 = 6.0;
 const BETWEEN_STRIPS: f64 = 14.0;
 const FREQUENCY_LABELS: f64 = 44.0;

@@ -188,7 +188,7 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
          [a]                                   # the first part\n{}\n[b]                                   # the second part\n{}\n\
          [assembly]                            # both, bolted together\nfrf = {:?}\n\
          points = [{}]   # CHECK: points of part b (points_on_a for those of a)\n\n\
-         [joint]\nmodel = \"full\"                        # or \"translation\", \"diagonal\"\n\n\
+         [joint]\n{}\n\n\
          [frequency]                           # Hz; what all three files have\nfrom = {}\nto = {}\n",
         stem(a),
         stem(b),
@@ -196,9 +196,20 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
         part(b),
         assembly.name,
         points.join(", "),
+        model(&[a, b]),
         toml_float(from),
         toml_float(to),
     )
+}
+
+/// The joint model that these parts have functions for.
+fn model(parts: &[&Candidate]) -> String {
+    let turns = |own: &&Candidate| own.points.iter().any(|dof| dof.direction().is_rotation());
+    if parts.iter().all(turns) {
+        "model = \"full\"                        # or \"translation\", \"diagonal\"".to_owned()
+    } else {
+        "model = \"translation\"                 # \"full\" or \"diagonal\" where theta is given on both parts".to_owned()
+    }
 }
 
 /// The file of a part, and where the joint is on it.

@@ -1,6 +1,6 @@
 //! A study: what it asks for, and the files that it names, each with what is in it.
 
-use bolted_joint_study::StudyText;
+use bolted_joint_study::{Method, StudyText};
 use serde_json::json;
 use toml::{Table, Value};
 
@@ -46,13 +46,64 @@ pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
     let more = (more > 0).then(|| format!("and {more} more"));
     shown.facts_of("says", values.into_iter().take(LISTED).chain(more));
     shown.detail("method", method.name());
-    shown.detail("command", method.command());
     let names = files
         .iter()
         .map(|(key, name)| json!({ "key": key, "file": name }));
     shown.detail("files", names.collect::<Vec<_>>());
-    shown.next = command_for(FileKind::Study(Some(method)), text.path());
+    let next = Next::of(method, &tables);
+    shown.detail("command", next.command(method));
+    shown.next = next.line(method, text);
     Ok(shown)
+}
+
+/// What a study is ready for.
+#[derive(Clone, Copy, PartialEq)]
+enum Next {
+    /// What its method is for.
+    Method,
+    /// A study in space all of whose joints are known: the functions of the assembly.
+    Functions,
+    /// A study in space without a measured assembly: what a test would tell.
+    Plan,
+}
+
+impl Next {
+    fn of(method: Method, tables: &Table) -> Self {
+        if method != Method::FrfSpace {
+            return Self::Method;
+        }
+        let joints = match tables.get("joint") {
+            Some(Value::Array(joints)) => joints.iter().collect(),
+            Some(joint) => vec![joint],
+            None => Vec::new(),
+        };
+        if !joints.is_empty() && joints.iter().all(|joint| joint.get("known").is_some()) {
+            Self::Functions
+        } else if tables
+            .get("assembly")
+            .is_none_or(|own| own.get("frf").is_none())
+        {
+            Self::Plan
+        } else {
+            Self::Method
+        }
+    }
+
+    fn command(self, method: Method) -> &'static str {
+        match self {
+            Self::Method => method.command(),
+            Self::Functions | Self::Plan => Method::Respond.command(),
+        }
+    }
+
+    fn line(self, method: Method, text: &StudyText) -> Option<String> {
+        let path = text.path();
+        match self {
+            Self::Method => command_for(FileKind::Study(Some(method)), path),
+            Self::Functions => command_for(FileKind::Study(Some(Method::Respond)), path),
+            Self::Plan => Some(format!("bolted-joint respond {} --plan", path.display())),
+        }
+    }
 }
 
 /// Takes a value apart: names of files, and lines such as `a.beam.length = 0.3`.

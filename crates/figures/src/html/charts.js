@@ -628,7 +628,9 @@
         const last = group.panels[group.panels.length - 1];
         const place = places[last.number];
         for (const { value, label } of across.major) {
-          this.text(svg, this.placeOf(last, value, 1).x, place.top + place.height + 16, label, "middle");
+          // the last one is not to lose its end beyond the paper
+          const most = place.left + place.width + 13 - 3.4 * label.length;
+          this.text(svg, Math.min(this.placeOf(last, value, 1).x, most), place.top + place.height + 16, label, "middle");
         }
         this.text(svg, place.left + place.width / 2, place.top + place.height + 33, last.across.name, "middle");
       }

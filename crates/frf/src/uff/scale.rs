@@ -122,31 +122,43 @@ pub(super) fn decide_scale(
     );
     Ok(match (labels.ratio, labels.numerator, labels.denominator) {
         (Some(ratio), ..) => (ratio.to_si, UnitStatement::Label(above.clone())),
-        (None, None, None) => match unread(header) {
-            None => (1.0, UnitStatement::Assumed),
-            Some(problem) => return Err(problem),
-        },
-        (None, Some(above_unit), None) => (above_unit.to_si, UnitStatement::Label(above.clone())),
-        (None, numerator, Some(below_unit)) => {
-            let (to_si, label) = match numerator {
-                Some(above_unit) => (above_unit.to_si, format!("{above} per {below}")),
-                None => (1.0, format!("per {below}")),
-            };
-            (to_si / below_unit.to_si, UnitStatement::Label(label))
+        (None, None, None) => {
+            numerator_is_silent(header)?;
+            denominator_is_silent(header)?;
+            (1.0, UnitStatement::Assumed)
+        }
+        (None, Some(above_unit), None) => {
+            denominator_is_silent(header)?;
+            (above_unit.to_si, UnitStatement::Label(above.clone()))
+        }
+        (None, None, Some(below_unit)) => {
+            numerator_is_silent(header)?;
+            let label = UnitStatement::Label(format!("per {below}"));
+            (below_unit.to_si.recip(), label)
+        }
+        (None, Some(above_unit), Some(below_unit)) => {
+            let label = UnitStatement::Label(format!("{above} per {below}"));
+            (above_unit.to_si / below_unit.to_si, label)
         }
     })
 }
 
-/// A label that says something, but not what was understood. Taken as SI it would be wrong by a factor that nobody sees.
-fn unread(header: &Header) -> Option<InRecord> {
-    [(9, &header.numerator), (10, &header.denominator)]
-        .into_iter()
-        .map(|(record, axis)| (record, axis.units_label.trim()))
-        .find(|(_, label)| !NO_UNIT.contains(&label.to_lowercase().as_str()))
-        .map(|(record, label)| {
-            let found = crate::shown(label);
-            (record, UffProblem::UnreadUnit { found })
-        })
+fn numerator_is_silent(header: &Header) -> Result<(), InRecord> {
+    is_silent(9, &header.numerator.units_label)
+}
+
+fn denominator_is_silent(header: &Header) -> Result<(), InRecord> {
+    is_silent(10, &header.denominator.units_label)
+}
+
+/// Refuses a label that says something, but not what was understood. Taken as SI it would be wrong by a factor that nobody sees.
+fn is_silent(record: usize, label: &str) -> Result<(), InRecord> {
+    let label = label.trim();
+    if NO_UNIT.contains(&label.to_lowercase().as_str()) {
+        return Ok(());
+    }
+    let found = crate::shown(label);
+    Err((record, UffProblem::UnreadUnit { found }))
 }
 
 /// Checks that labelled units have the length dimension that the two directions give the ratio.
@@ -214,6 +226,9 @@ mod tests {
             ("V", "", "\"V\""),
             ("(m/s≤)/N", "", "\"(m/s≤)/N\""),
             ("", "pond", "\"pond\""),
+            ("nm", "N", "\"nm\""),
+            ("ips", "N", "\"ips\""),
+            ("mm", "stone", "\"stone\""),
         ] {
             let problem = scale(unit, load, None).unwrap_err().to_string();
             assert!(problem.contains(named), "{problem}");

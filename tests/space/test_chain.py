@@ -90,6 +90,16 @@ def test_two_unknown_joints_with_noise_are_in_their_intervals(run, tmp_path):
     assert np.mean(squares) == pytest.approx(42, abs=11), squares
 
 
+def test_a_wrong_model_is_not_put_down_to_the_part_between(run, tmp_path):
+    """One of the joints is sought as a single bolt, which it is not: what is said is that it does not explain the functions."""
+    chain = Chain([FIRST, SECOND])
+    tables = ['model = "bolt"\nlength = 0.03', SOUGHT]
+    chain.write(tmp_path, FREQUENCIES[::7], EVERYWHERE, EVERYWHERE, tables, noise=1e-3, rng=np.random.default_rng(1))
+    done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3)
+    assert "the stated noise does not explain the residuals" in done.stderr, done.stderr
+    assert "as good as rigid" not in done.stderr
+
+
 @pytest.mark.long
 def test_a_light_and_stiff_part_between_them_hides_which_is_which(program, run, tmp_path):
     """Springs in series: only the sum of both compliances is seen."""

@@ -235,6 +235,8 @@ def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impac
         ("direction = [", "direction = [2.0, 0.0, 0.0] # [", ["a.impacts[0]", "unit"]),
         ("[[a.sensors]]\nnode = 100", "[[a.sensors]]\naxes = [[1,0,0],[0,1,0],[0,0,-1]]\nnode = 100", ["a.sensors[0]"]),
         ("[[a.sensors]]\nnode = 100", "[[a.sensors]]\nnode = 990", ["990:+X"]),
+        ("position = [", "position = [27.0, 0, 0] # [", ["a.sensors[0]", "[27.0, 0.0, 0.0]", "millimetres?"]),
+        ("length = 0.03", "length = 30", ["joint.length", "found 30", "millimetres?"]),
         ("length = 0.03", "length = -1", ["joint.length", "found -1", "size of the interface"]),
         ('model = "full"', 'model = "two-bolts"', ["joint.line", "direction from one bolt"]),
         ('model = "full"', 'model = "spring"', ["spring", "full"]),
@@ -253,6 +255,17 @@ def test_what_is_wrong_is_told_by_its_key(run, tmp_path, old, new, fragments):
     told = run("identify", study, "-o", tmp_path / "j.joint.json", expect=1).stderr
     assert all(fragment in told for fragment in fragments), told
     assert not (tmp_path / "j.joint.json").exists()
+
+
+def test_few_impacts_are_warned_of(run, tmp_path):
+    Rig(K, C).write(tmp_path, FREQUENCIES, more=EXACT)
+    study = tmp_path / "study.toml"
+    first, *others = study.read_text().split("[[a.impacts]]")
+    *others, last = others
+    rest = last[last.index("[b]") :]
+    study.write_text("[[a.impacts]]".join([first, *others[:7]]) + rest)
+    told = run("identify", study, "-o", tmp_path / "j.joint.json").stderr
+    assert "a: impacts: found 7, 9 to 12 are better" in told and "b: " not in told, told
 
 
 def test_two_sensors_do_not_see_a_rotation(run, tmp_path):

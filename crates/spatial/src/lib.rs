@@ -8,6 +8,7 @@
 //! likelihood and carries the errors of the set-up into its deviations, [`SpatialIdentification`] is what was found.
 #![forbid(unsafe_code)]
 
+mod advice;
 mod assembled;
 mod chain;
 mod compliant;

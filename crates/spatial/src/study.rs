@@ -18,6 +18,9 @@ use crate::tables::{
     BudgetTable, DeviationsTable, JointTable, ModelName, NoiseTable, SensorTable, StudyFile,
 };
 
+/// How far from an interface a sensor, an impact or a bolt of it is at most, m.
+pub(crate) const FARTHEST_M: f64 = 3.0;
+
 /// Frequencies that are the same, in parts.
 const SAME: f64 = 1e-6;
 
@@ -232,7 +235,7 @@ impl Reader<'_> {
         key: &str,
         table: &SensorTable,
     ) -> Result<(Vec<Dof>, Sensor), StudyError> {
-        let position = Vector3::from(table.position);
+        let position = self.near(key, table.position)?;
         let refused = |source| StudyError::model(self.study.path(), Some(key), source);
         match (table.node, &table.dof) {
             (Some(node), None) if table.direction.is_none() => {
@@ -262,6 +265,24 @@ impl Reader<'_> {
                 "node (and axes) for three channels, or dof (and direction) for one",
             ),
         }
+    }
+
+    /// A place near the interface, m.
+    pub(crate) fn near(
+        &self,
+        key: impl std::fmt::Display,
+        position: [f64; 3],
+    ) -> Result<Vector3<f64>, StudyError> {
+        let is_near = |own: &f64| !own.is_finite() || own.abs() <= FARTHEST_M;
+        self.study.ensure(
+            position.iter().all(is_near),
+            key,
+            format_args!("the place {position:?}"),
+            format_args!(
+                "a place near the interface, at most {FARTHEST_M} m from it (is it in millimetres?)"
+            ),
+        )?;
+        Ok(Vector3::from(position))
     }
 
     /// The direction that is given, or that of a DOF in the interface's axes.
@@ -380,8 +401,8 @@ impl Reader<'_> {
                         "a place [x, y, z] in m for each bolt",
                     )?
                     .iter()
-                    .map(|&position| Vector3::from(position))
-                    .collect(),
+                    .map(|&position| self.near(format_args!("{key}.positions"), position))
+                    .collect::<Result<_, _>>()?,
             },
             ModelName::Blocks => JointModel::Blocks,
             ModelName::Full => JointModel::Full,

@@ -34,6 +34,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = SpatialStudy::of(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
+    warn(&study.advice());
     let misfits = study.misfits()?;
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;

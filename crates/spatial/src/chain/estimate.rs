@@ -106,7 +106,11 @@ impl ChainStudy {
             }
         }
         let apart = apart(&problem, &best.unknowns, &level)?;
-        if let Some(alike) = apart.iter().find(|pair| !pair.told.is_told()) {
+        let freedom = (2 * functions * lines - count) as f64;
+        let reduced_chi_squared = is_stated.then_some(best.cost / freedom);
+        // of a joint that does not explain the functions nothing is said about the part between
+        let explains = reasons::of_noise(reduced_chi_squared).is_none();
+        if explains && let Some(alike) = apart.iter().find(|pair| !pair.told.is_told()) {
             return Err(SpatialError::NotToldApart {
                 joints: alike.joints.clone(),
                 correlation: alike.told.correlation,
@@ -121,14 +125,13 @@ impl ChainStudy {
             .zip(&self.models)
             .map(|(joint, model)| found(joint, model, &best.unknowns.0, &all))
             .collect::<Result<_, _>>()?;
-        let freedom = (2 * functions * lines - count) as f64;
         let mut found = ChainIdentification {
             joints,
             apart,
             relative_rms: relative_rms(&problem, &best.unknowns)?,
             functions,
             lines,
-            reduced_chi_squared: is_stated.then_some(best.cost / freedom),
+            reduced_chi_squared,
             starts,
             reasons_against: Vec::new(),
         };

@@ -5,6 +5,7 @@
 //! identified between two sides, with the known joints coupled into them ([`crate::SpatialStudy`]).
 
 mod apart;
+mod beam;
 mod estimate;
 mod part;
 pub(crate) mod plan;

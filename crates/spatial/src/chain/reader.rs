@@ -3,21 +3,21 @@
 use std::path::Path;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{ModalModel, SpaceBeam, SpacePoint, Theory};
+use bolted_joint_frf::structure::ModalModel;
 use bolted_joint_joint::JointFile;
 use bolted_joint_space::{Dof as Motion, Motions};
 use bolted_joint_study::{FrequencyTable, LineChoice, StudyError};
 use bolted_joint_virtual_point::Impact;
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Matrix6;
 
+use super::beam::computed;
 use super::part::{Part, PartInterface, Source};
 use super::plan::candidates::{Candidate, Thing};
 use super::response::Scatter;
 use crate::links::{Link, Numbers};
-use crate::study::Reader;
+use crate::study::{FARTHEST_M, Reader};
 use crate::tables::{
-    BeamPointTable, BeamTable, CandidatesTable, ExpectedTable, ImpactTable, JointTable,
-    MatricesTable, PartTable, SensorTable, TheoryName,
+    CandidatesTable, ExpectedTable, ImpactTable, JointTable, MatricesTable, PartTable, SensorTable,
 };
 
 /// Lines of a study where no file of functions has any, at most.
@@ -33,25 +33,6 @@ const ANY_LENGTH_M: f64 = 1.0;
 pub(super) struct Known {
     pub(super) matrices: [Matrix6<f64>; 2],
     pub(super) scatter: Option<Scatter>,
-}
-
-fn computed(table: &BeamTable) -> SpaceBeam {
-    let point = |own: &BeamPointTable| SpacePoint {
-        node: own.node,
-        position_m: own.position,
-    };
-    SpaceBeam {
-        points: table.points.iter().map(point).collect(),
-        width_m: table.width,
-        height_m: table.height,
-        height_along: table.height_along,
-        youngs_modulus_pa: table.youngs_modulus,
-        density_kg_per_m3: table.density,
-        poissons_ratio: (table.poissons_ratio).unwrap_or(Theory::USUAL_POISSONS_RATIO),
-        has_shear: matches!(table.theory, TheoryName::Timoshenko),
-        held: table.held.clone(),
-        damping_ratio: table.damping_ratio.list(),
-    }
 }
 
 impl Reader<'_> {
@@ -105,6 +86,7 @@ impl Reader<'_> {
                 Ok(Source::Modes(model.map_err(StudyError::of_file)?))
             }
             (None, None, Some(beam)) => {
+                self.plausible(name, beam)?;
                 let model = computed(beam).modal();
                 let refused = |source| StudyError::model(self.study.path(), Some(name), source);
                 Ok(Source::Modes(model.map_err(refused)?))
@@ -227,7 +209,7 @@ impl Reader<'_> {
     ) -> Result<(Dof, Impact), StudyError> {
         let dof = self.dof(format_args!("{key}.dof"), &table.dof)?;
         let direction = self.direction(key, dof, table.direction)?;
-        let impact = Impact::new(Vector3::from(table.position), direction, 1.0);
+        let impact = Impact::new(self.near(key, table.position)?, direction, 1.0);
         let refused = |source| StudyError::model(self.study.path(), Some(key), source);
         Ok((dof, impact.map_err(refused)?))
     }
@@ -301,11 +283,16 @@ impl Reader<'_> {
     ) -> Result<(Link, Option<Scatter>), StudyError> {
         let mut scatter = None;
         let length = table.length.map(|length| {
-            self.study.positive(
-                format_args!("{key}.length"),
+            let key = format_args!("{key}.length");
+            let expected = "about the size of the interface in m, such as 0.03";
+            let length = self.study.positive(key, length, expected)?;
+            self.study.ensure(
+                length <= FARTHEST_M,
+                key,
                 length,
-                "about the size of the interface in m, such as 0.03",
-            )
+                format_args!("{expected}, at most {FARTHEST_M} m (is it in millimetres?)"),
+            )?;
+            Ok::<f64, StudyError>(length)
         });
         let length_m = length.transpose()?;
         let numbers = match (&table.known, table.model) {

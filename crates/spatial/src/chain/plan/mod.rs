@@ -11,6 +11,7 @@ mod worth;
 
 use nalgebra::DVector;
 
+use crate::advice::advice;
 use crate::chain::apart::Apart;
 use crate::chain::part::Part;
 use crate::chain::study::{ChainStudy, sides};
@@ -20,7 +21,7 @@ use crate::problem::{Level, Problem};
 use crate::side::Side;
 use candidates::{Candidate, proposed};
 pub use reason::Reason;
-use trial::{Test, advice};
+use trial::Test;
 
 /// Lines at which candidates are compared.
 const COMPARED_LINES: usize = 8;
@@ -104,7 +105,7 @@ impl ChainStudy {
         let (values, mut warnings) = self.expected()?;
         let chosen = chosen(links, aim)?;
         let test = self.test(&self.parts, &values, noise, usize::MAX)?;
-        warnings.extend(advice(&test.problem));
+        warnings.extend(advice(&test.problem.sides));
         let (unknowns, apart, lines) = test.unknowns()?;
         let all = test.problem.frequency_hz.len();
         if lines < all {

@@ -1,7 +1,6 @@
 //! A test as it would be: what would be measured, and what that tells of every unknown.
 
 use bolted_joint_frf::Dof;
-use bolted_joint_virtual_point::{Role, VirtualPoint, Weights};
 use nalgebra::{DMatrix, DVector};
 
 use super::Planned;
@@ -308,26 +307,4 @@ fn alike(covariance: &DMatrix<f64>, n: usize, names: &[String]) -> Vec<String> {
     others.sort_by(|&one, &other| correlation(other).total_cmp(&correlation(one)));
     others.truncate(MOST_ALIKE);
     others.into_iter().map(|m| names[m].clone()).collect()
-}
-
-/// What the places of sensors and impacts are warned of.
-pub(super) fn advice(problem: &Problem) -> Vec<String> {
-    let interfaces = problem.sides.iter().flat_map(|side| &side.interfaces);
-    let mut all = Vec::new();
-    for placed in interfaces {
-        let Interface::Points(set_up) = &placed.interface else {
-            continue;
-        };
-        let Ok(point) = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal) else {
-            continue;
-        };
-        for role in [Role::Channel, Role::Impact] {
-            let own = point.conditioning(role).advice();
-            all.extend(
-                own.iter()
-                    .map(|advice| format!("{}: {advice}", placed.name)),
-            );
-        }
-    }
-    all
 }

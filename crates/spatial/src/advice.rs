@@ -1,0 +1,36 @@
+//! What would make the places of sensors and impacts better.
+
+use bolted_joint_virtual_point::{Role, VirtualPoint, Weights};
+
+use crate::side::{Interface, Side};
+use crate::study::SpatialStudy;
+
+impl SpatialStudy {
+    /// What the places of sensors and impacts are warned of; nothing where each interface has enough of them in a good arrangement.
+    #[must_use]
+    pub fn advice(&self) -> Vec<String> {
+        advice(&self.problem.sides)
+    }
+}
+
+/// What the places of sensors and impacts are warned of: too few of them, or a motion that they hardly see.
+pub(crate) fn advice(sides: &[Side]) -> Vec<String> {
+    let interfaces = sides.iter().flat_map(|side| &side.interfaces);
+    let mut all = Vec::new();
+    for placed in interfaces {
+        let Interface::Points(set_up) = &placed.interface else {
+            continue;
+        };
+        let Ok(point) = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal) else {
+            continue;
+        };
+        for role in [Role::Channel, Role::Impact] {
+            let own = point.conditioning(role).advice();
+            all.extend(
+                own.iter()
+                    .map(|advice| format!("{}: {advice}", placed.name)),
+            );
+        }
+    }
+    all
+}

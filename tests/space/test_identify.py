@@ -257,6 +257,23 @@ def test_what_is_wrong_is_told_by_its_key(run, tmp_path, old, new, fragments):
     assert not (tmp_path / "j.joint.json").exists()
 
 
+@pytest.mark.parametrize("tables, axis, named", [("si", 2, "sensors and impacts"), ("s", 0, "sensors"), ("i", 1, "impacts")])
+def test_mirrored_places_are_refused(run, tmp_path, tables, axis, named):
+    Rig(K, C).write(tmp_path, FREQUENCIES[:8], noise=0.01, rng=np.random.default_rng(3))
+    study = tmp_path / "study.toml"
+    lines, table = [], ""
+    for line in study.read_text().splitlines():
+        table = line if line.startswith("[") else table
+        if line.startswith("position") and table[:4] == "[[b." and table[4] in tables:
+            place = json.loads(line.split("=")[1])
+            place[axis] = -place[axis]
+            line = f"position = {place}"
+        lines.append(line)
+    study.write_text("\n".join(lines))
+    told = run("identify", study, "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert f"b: the {named} look mirrored along {'xyz'[axis]}" in told, told
+
+
 def test_few_impacts_are_warned_of(run, tmp_path):
     Rig(K, C).write(tmp_path, FREQUENCIES, more=EXACT)
     study = tmp_path / "study.toml"

@@ -69,6 +69,21 @@ pub enum SpatialError {
         /// What is wrong with it.
         source: VirtualPointError,
     },
+    /// Places in mirrored coordinates.
+    #[error(
+        "{name}: the {places} look mirrored along {axis}: as they are written a rigid interface leaves {:.1} % of the functions, with \
+         the other sign of {axis} {:.1} %; write their places in the right-handed axes that the directions are in", percent[0], percent[1]
+    )]
+    Mirrored {
+        /// The table of the study with them.
+        name: String,
+        /// Sensors, impacts, or both.
+        places: &'static str,
+        /// Along which axis.
+        axis: &'static str,
+        /// What a rigid interface leaves of the functions, r.m.s. in percent: as they are, and mirrored.
+        percent: [f64; 2],
+    },
     /// Two joints look the same.
     #[error(
         "the functions do not tell {} and {} apart (canonical correlation {correlation}): the part between them is as good as rigid and \

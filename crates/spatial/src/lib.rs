@@ -23,6 +23,7 @@ mod identification;
 mod joint_file;
 mod level;
 mod links;
+mod mirrored;
 mod misfits;
 mod normal;
 mod numbers;

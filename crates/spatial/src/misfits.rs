@@ -10,6 +10,7 @@ use bolted_joint_virtual_point::{
 };
 
 use crate::error::SpatialError;
+use crate::mirrored::refuse_mirrored;
 use crate::problem::Problem;
 use crate::side::{Placed, Side};
 use crate::study::SpatialStudy;
@@ -52,7 +53,7 @@ impl SpatialStudy {
     /// kind and side at most, as more would hide each other. Fewer than eight channels or impacts cannot be judged.
     ///
     /// # Errors
-    /// [`SpatialError::Interface`] for functions that cannot be used.
+    /// [`SpatialError::Interface`] for functions that cannot be used, [`SpatialError::Mirrored`] for places in mirrored coordinates.
     pub fn misfits(&self) -> Result<Vec<Misfit>, SpatialError> {
         let Problem {
             sides, tolerances, ..
@@ -62,6 +63,7 @@ impl SpatialStudy {
             let Some((placed, set_up)) = side.points() else {
                 continue;
             };
+            refuse_mirrored(placed, side, set_up)?;
             for role in [Role::Channel, Role::Impact] {
                 let tolerance = tolerances.as_ref().map(|tolerances| match role {
                     Role::Channel => &tolerances.sensors,

@@ -129,6 +129,13 @@ pub(crate) struct Body {
 }
 
 impl Body {
+    /// The same on the other side of the virtual point along one of its axes.
+    pub(crate) fn mirrored(&self, axis: usize) -> Self {
+        let mut mirrored = self.clone();
+        mirrored.position_m[axis] = -mirrored.position_m[axis];
+        mirrored
+    }
+
     fn new(
         position_m: Vector3<f64>,
         directions: Vec<Vector3<f64>>,

@@ -210,6 +210,16 @@ impl Places {
         Self::new(self.role, bodies, self.motions)
     }
 
+    /// The places on the other side of the virtual point along one of its axes, the directions being what they are.
+    ///
+    /// # Errors
+    ///
+    /// None but those of [`Self::sensors`].
+    pub(crate) fn mirrored(&self, axis: usize) -> Result<Self, VirtualPointError> {
+        let bodies = self.bodies.iter().map(|body| body.mirrored(axis)).collect();
+        Self::new(self.role, bodies, self.motions)
+    }
+
     /// Root mean square of the distances from the virtual point, one for each row, m; 1 if all are there.
     pub(crate) fn length_m(&self) -> f64 {
         let squares = self.bodies.iter().map(|body| {

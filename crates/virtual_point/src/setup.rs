@@ -83,6 +83,22 @@ impl SetUp {
         })
     }
 
+    /// The set-up as it would be if the coordinate along one of the axes x, y and z had the other sign at all sensors, or at all
+    /// impacts: what becomes of one that is written in mirrored coordinates.
+    ///
+    /// # Errors
+    ///
+    /// [`VirtualPointError::TooFew`], which the set-up itself would have.
+    pub fn mirrored(&self, role: Role, axis: usize) -> Result<Self, VirtualPointError> {
+        let mut mirrored = self.clone();
+        let places = match role {
+            Role::Channel => &mut mirrored.channels,
+            Role::Impact => &mut mirrored.impacts,
+        };
+        *places = places.mirrored(axis)?;
+        Ok(mirrored)
+    }
+
     /// Y = R_u Y_qm R_fᵀ, channels × impacts, of a receptance of the virtual point. Of a change of that receptance, it
     /// is the change of Y.
     #[must_use]

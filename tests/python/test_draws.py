@@ -61,7 +61,11 @@ def test_draws_that_do_not_belong_together_are_refused(short):
         bolted_joint.draw(short, range(2))
 
 
+@pytest.mark.filterwarnings("ignore")
 def test_two_workers_make_the_draws_of_one_machine(short):
+    study = bolted_joint.Study.read(FOUR_BOLTS)
+    study["contact"]["friction"] = "0.3 ± 0.05"
+    study["uncertainty"] = {"draws": 20, "seed": 2}
     distributed = pytest.importorskip("dask.distributed")
     spec = importlib.util.spec_from_file_location("shards", EXAMPLES / "shards.py")
     shards = importlib.util.module_from_spec(spec)
@@ -70,6 +74,10 @@ def test_two_workers_make_the_draws_of_one_machine(short):
         with distributed.Client(cluster) as client:
             client.upload_file(str(EXAMPLES / "shards.py"))
             found = shards.bootstrap(client, short, draws=10, parts=3, seed=9)
+            predicted = shards.monte_carlo(client, study, parts=3)
             workers = len(client.scheduler_info()["workers"])
     assert workers == 2
     assert found.joint.data == bolted_joint.identify(short, bootstrap=10, seed=9).joint.data
+    whole = bolted_joint.predict(study)
+    assert predicted.joint.data == whole.joint.data
+    assert predicted.details["uncertainty"] == whole.details["uncertainty"]

@@ -1,11 +1,15 @@
 """Functions as arrays: what is read, what is refused."""
 
+import pathlib
+import warnings
+
 import numpy as np
 import pytest
 
 import bolted_joint
 from bolted_joint import BoltedJointError, Functions
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 F = np.array([1.0, 2.0, 4.0])
 H = np.arange(12).reshape(3, 2, 2) * (1.0 + 0.5j) + 1.0
 NAMES = ["1:+Y", "2:+Y"]
@@ -105,3 +109,99 @@ def test_digits_follow_the_deviation(value, deviation, text):
     from bolted_joint._html import with_deviation
 
     assert with_deviation(value, deviation) == text
+
+
+@pytest.mark.parametrize("quantity", ["receptance", "mobility", "accelerance"])
+def test_functions_become_another_quantity(quantity):
+    functions = Functions(F, H, NAMES, NAMES, quantity=quantity, averages=4, coherence=np.full(H.shape, 0.5))
+    order = ["receptance", "mobility", "accelerance"]
+    for other in order:
+        turned = functions.as_quantity(other)
+        power = order.index(other) - order.index(quantity)
+        np.testing.assert_allclose(turned.values, H * (2j * np.pi * F[:, None, None]) ** power, rtol=1e-14)
+        assert (turned.quantity, turned.averages) == (other, 4)
+    with pytest.raises(BoltedJointError, match="'inertance'"):
+        functions.as_quantity("inertance")
+    # of an accelerance at 0 Hz there is no receptance
+    at_rest = Functions([0.0, 1.0], H[:2], NAMES, NAMES, quantity="accelerance").as_quantity("receptance")
+    assert at_rest.frequency_hz.tolist() == [1.0]
+
+
+def table_of(path, names, unit="", part="receptance"):
+    """A table with two lines, where one function after the other has 1 + 2i, 3 + 4i and so on."""
+    heads = ["frequency [Hz]"]
+    for name in names:
+        heads += [f"{name} {part} real{unit}", f"{name} {part} imaginary{unit}"]
+    numbers = ",".join(str(number + 1) for number in range(2 * len(names)))
+    path.write_text("\n".join([",".join(heads), f"1,{numbers}", f"2,{numbers}"]) + "\n", encoding="utf-8")
+    return path
+
+
+MILLIMETRES = {"length": "mm", "force": "N"}
+
+
+def test_units_are_those_that_are_stated(tmp_path):
+    pairs = ["1:+Y/1:+Y", "1:+RZ/1:+Y", "1:+Y/1:+RZ", "1:+RZ/1:+RZ"]
+    silent = table_of(tmp_path / "silent.csv", pairs)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read = bolted_joint.read(silent, units={"length": "mm", "force": "kN"})
+    # m/N, rad/N, m/(N·m) and rad/(N·m) in mm/kN, rad/kN, mm/(kN·mm) and rad/(kN·mm)
+    expected = {pairs[0]: (1 + 2j) * 1e-6, pairs[1]: (3 + 4j) * 1e-3, pairs[2]: (5 + 6j) * 1e-3, pairs[3]: 7 + 8j}
+    for pair, value in expected.items():
+        np.testing.assert_allclose(read[tuple(pair.split("/"))], value, rtol=1e-12)
+    with pytest.raises(BoltedJointError, match="units.length: found 'furlong', expected one of m, cm, mm"):
+        bolted_joint.read(silent, units={"length": "furlong", "force": "N"})
+
+
+@pytest.mark.parametrize("unit", ["m/N", "mm/N", "(mm)/N", "mm/kN", "in/lbf"])
+def test_units_take_the_place_of_the_files_own(tmp_path, unit):
+    path = table_of(tmp_path / "stated.csv", ["1:+Y/1:+Y"], f" [{unit}]")
+    read = bolted_joint.read(path, units={"length": "mm", "force": "N"})
+    np.testing.assert_allclose(read.values.ravel(), (1 + 2j) * 1e-3, rtol=1e-12)
+
+
+def test_units_take_the_place_of_data_set_164():
+    path = ROOT / "tests/data/uff/millimetres.uff"
+    as_stated = bolted_joint.read(path)
+    np.testing.assert_allclose(bolted_joint.read(path, units=MILLIMETRES).values, as_stated.values, rtol=1e-12)
+    metres = bolted_joint.read(path, units={"length": "m", "force": "N"})
+    ratio = metres["11:+Y", "2:+Y"] / as_stated["11:+Y", "2:+Y"]
+    np.testing.assert_allclose(ratio, 1e3, rtol=1e-12)
+
+
+def test_units_beside_those_that_differ_from_function_to_function_are_refused(tmp_path):
+    path = tmp_path / "mixed.csv"
+    path.write_text(
+        "frequency [Hz],1:+Y/1:+Y real [m/N],1:+Y/1:+Y imaginary [m/N],"
+        "2:+Y/1:+Y real [mm/N],2:+Y/1:+Y imaginary [mm/N]\n1,1,2,3,4\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(BoltedJointError, match=r"mixed\.csv: units: found units beside .*m/N.*mm/N.*expected none"):
+        bolted_joint.read(path, units=MILLIMETRES)
+
+
+def test_several_files_are_read_as_one(tmp_path):
+    first = table_of(tmp_path / "1.csv", ["1:+Y/1:+Y", "2:+Y/1:+Y"], " [m/N]")
+    second = table_of(tmp_path / "2.csv", ["1:+Y/2:+Y"], " [m/N]")
+    read = bolted_joint.read([first, second])
+    assert (read.responses, read.references, len(read)) == (("1:+Y", "2:+Y"), ("1:+Y", "2:+Y"), 3)
+    assert read["1:+Y", "2:+Y"].tolist() == [1 + 2j] * 2 and read.measured.tolist() == [[True, True], [True, False]]
+    with pytest.raises(BoltedJointError, match=r"1\.csv, .*found 1:\+Y/1:\+Y twice"):
+        bolted_joint.read([first, first])
+    with pytest.raises(BoltedJointError, match="path: found an empty list"):
+        bolted_joint.read([])
+
+
+def test_coherence_may_be_in_a_file_of_its_own(tmp_path):
+    functions = table_of(tmp_path / "frf.csv", ["1:+Y/1:+Y", "2:+Y/1:+Y"], " [m/N]")
+    (tmp_path / "coherence.csv").write_text(
+        "# averages = 8\nfrequency [Hz],2:-Y/1:+Y coherence,9:+Y/1:+Y coherence\n1,0.5,0.1\n2,0.25,0.1\n",
+        encoding="utf-8",
+    )
+    read = bolted_joint.read(functions, coherence=tmp_path / "coherence.csv")
+    # whatever the signs of its DOFs
+    assert read.coherence[:, 1, 0].tolist() == [0.5, 0.25] and np.isnan(read.coherence[:, 0, 0]).all()
+    assert read.averages == 8
+    with pytest.raises(BoltedJointError, match=r"frf\.csv: found no coherence"):
+        bolted_joint.read(functions, coherence=[functions])

@@ -54,7 +54,9 @@ def run(arguments: Iterable[str], hidden: str = "", stacklevel: int = 3) -> Any:
     KeyboardInterrupt
         At Ctrl-C.
     """
-    exit_code, printed, messages = _native.call([*arguments, "--json"], PYTHON)
+    command, *rest = arguments
+    # before what stands at the end, which may be a command of its own
+    exit_code, printed, messages = _native.call([command, "--json", *rest], PYTHON)
     errors = []
     for message in messages:
         if hidden:

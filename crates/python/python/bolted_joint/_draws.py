@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._command import BoltedJointError, run
+from ._html import table
 from ._identify import Identification, found_in
 from ._joint import Joint
 from ._predict import Prediction
@@ -61,6 +62,17 @@ class Draws:
 
     def __repr__(self) -> str:
         return f"<Draws {self.numbers.start}..{self.numbers.stop} of {', '.join(self.results)}>"
+
+    def _repr_html_(self) -> str:
+        made = self.values[~np.isnan(self.values).all(axis=1)]
+        rows = []
+        for name, values in zip(self.results, made.T, strict=True):
+            known = values[~np.isnan(values)]
+            deviation = known.std(ddof=1) if len(known) > 1 else np.nan
+            ends = np.percentile(known, [2.5, 50.0, 97.5]) if len(known) else [np.nan] * 3
+            rows.append((name, f"{deviation:.3g}", *(f"{end:.6g}" for end in ends)))
+        caption = f"draws {self.numbers.start} to {self.numbers.stop - 1}, {len(made)} of {len(self)} with results"
+        return table(caption, ("result", "std. dev.", "2.5 %", "median", "97.5 %"), rows)
 
 
 def draw(study: AnyStudy, numbers: range, *, bootstrap: int | None = None, seed: int | None = None) -> Draws:

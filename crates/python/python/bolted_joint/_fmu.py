@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ._command import BoltedJointError, path_of, run
+from ._html import table
 from ._joint import Joint
 from ._study import Study, as_file
 
@@ -31,6 +32,15 @@ class Fmu:
 
     def __repr__(self) -> str:
         return f"<Fmu {str(self.path)!r}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            ("model", str(self.details["model_name"])),
+            ("interface", f"{self.details['interface']}, FMI {self.details['fmi_version']}"),
+            ("platforms", ", ".join(self.details["platforms"])),
+            ("token", str(self.details["token"])),
+        ]
+        return table(str(self.path), ("", ""), rows)
 
 
 def export(
@@ -130,6 +140,10 @@ class Checked:
 
     def __repr__(self) -> str:
         return f"<Checked: {'sound' if self.sound else '; '.join(self.findings)}>"
+
+    def _repr_html_(self) -> str:
+        rows = [("wrong", finding) for finding in self.findings] + [("", fact) for fact in self.facts]
+        return table("sound" if self.sound else "not sound", ("", ""), rows)
 
 
 def check(what: Joint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:

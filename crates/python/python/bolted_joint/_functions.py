@@ -1,6 +1,5 @@
 """Frequency response functions as arrays."""
 
-import contextlib
 import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -8,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _matlab73, _native
 from ._command import BoltedJointError
 from ._html import table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+#: Each is the one before it, differentiated by time.
 _QUANTITIES = ("receptance", "mobility", "accelerance")
-
 
 class Functions:
     """Frequency response functions of one structure, on one frequency axis.
@@ -40,6 +38,11 @@ class Functions:
     averages : float, optional
         Averages behind every function.
 
+    Attributes
+    ----------
+    magnitude_deviation : array of the shape of values, or None
+        Standard deviations of the magnitudes, where `respond` was asked for them.
+
     Raises
     ------
     BoltedJointError
@@ -60,8 +63,7 @@ class Functions:
         self.frequency_hz: NDArray[np.float64] = np.asarray(frequency_hz, dtype=np.float64)
         self.responses: tuple[str, ...] = _names("responses", responses)
         self.references: tuple[str, ...] = _names("references", references)
-        if quantity not in _QUANTITIES:
-            raise BoltedJointError(f"quantity: found {quantity!r}, expected one of {', '.join(_QUANTITIES)}")
+        _known_quantity(quantity)
         self.quantity = quantity
         if self.frequency_hz.ndim != 1:
             raise BoltedJointError(
@@ -73,6 +75,7 @@ class Functions:
             None if coherence is None else _shaped("coherence", np.asarray(coherence, dtype=np.float64), shape)
         )
         self.averages = averages
+        self.magnitude_deviation: NDArray[np.float64] | None = None
 
     def __len__(self) -> int:
         """How many functions there are."""
@@ -116,13 +119,45 @@ class Functions:
             averages=self.averages,
         )
 
+    def as_quantity(self, quantity: str) -> "Functions":
+        """The same functions as another quantity.
+
+        Parameters
+        ----------
+        quantity : {"receptance", "mobility", "accelerance"}
+            What is asked for. A line at 0 Hz is left out where that divides by the frequency.
+        """
+        _known_quantity(quantity)
+        power = _QUANTITIES.index(quantity) - _QUANTITIES.index(self.quantity)
+        if power == 0:
+            return self
+        lines = self.frequency_hz > 0.0 if power < 0 else np.full(self.frequency_hz.shape, True)
+        differentiated = (2j * np.pi * self.frequency_hz[lines]) ** power
+        return self._with(self.values[lines] * differentiated[:, None, None], lines=lines, quantity=quantity)
+
+    def _with(
+        self, values: NDArray[np.complex128], *, lines: NDArray[np.bool_] | None = None, quantity: str | None = None
+    ) -> "Functions":
+        """These functions with other values, on some of the lines."""
+        of = slice(None) if lines is None else lines
+        return Functions(
+            self.frequency_hz[of],
+            values,
+            self.responses,
+            self.references,
+            quantity=quantity or self.quantity,
+            coherence=None if self.coherence is None else self.coherence[of],
+            averages=self.averages,
+        )
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file that the command line reads: a NumPy archive (``.npz``), or a table (``.csv``).
 
         Raises
         ------
         BoltedJointError
-            If some function between the responses and the references was not measured, for which an archive has no word.
+            If some function between the responses and the references was not measured, for which an archive has no
+            word.
         """
         if os.fspath(path).endswith(".csv"):
             self._save_table(path)
@@ -162,7 +197,8 @@ class Functions:
         if self.averages is not None:
             comments.append(f"# averages = {self.averages!r}")
         head = "\n".join([*comments, ",".join(names)])
-        np.savetxt(path, np.column_stack(columns), fmt="%.17g", delimiter=",", header=head, comments="", encoding="utf-8")
+        table = np.column_stack(columns)
+        np.savetxt(path, table, fmt="%.17g", delimiter=",", header=head, comments="", encoding="utf-8")
 
     def plot(self, **options: Any) -> "Figure":
         """Draws magnitude and phase over frequency; see `bolted_joint._plot.functions`."""
@@ -189,70 +225,9 @@ class Functions:
         )
 
 
-def read(
-    path: str | os.PathLike[str], *, quantity: str | None = None, averages: float | None = None
-) -> Functions:
-    """Reads a file of frequency response functions: universal file, table, NumPy archive or MATLAB file.
-
-    MATLAB files of ``-v7.3`` (HDF5) are read where h5py is installed.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    quantity : {"receptance", "mobility", "accelerance"}, optional
-        Takes the place of what the file says or leaves open.
-    averages : float, optional
-        Averages behind every function, where the file does not state them.
-
-    Returns
-    -------
-    Functions
-        Receptances in SI units.
-
-    Raises
-    ------
-    BoltedJointError
-        With file, line or key for what cannot be read.
-
-    Warns
-    -----
-    UserWarning
-        If the file states no units: SI is assumed.
-    """
-    import warnings
-
-    with _matlab73.archive(path) if _matlab73.is_one(path) else contextlib.nullcontext(path) as source:
-        try:
-            curves, coherences, stated, has_units = _native.read_functions(source, quantity, averages)
-        except ValueError as error:
-            raise BoltedJointError(str(error).replace(os.fspath(source), os.fspath(path))) from error
-    if not has_units:
-        warnings.warn(f"{os.fspath(path)}: the file states no units; SI is assumed", stacklevel=2)
-    if not curves:
-        raise BoltedJointError(f"{os.fspath(path)}: found no function, expected at least one")
-    frequency_hz = np.frombuffer(curves[0][2])
-    responses = list(dict.fromkeys(curve[0] for curve in curves))
-    references = list(dict.fromkeys(curve[1] for curve in curves))
-    shape = (len(frequency_hz), len(responses), len(references))
-    values = np.full(shape, np.nan, dtype=np.complex128)
-    for response, reference, axis, numbers in curves:
-        if not np.array_equal(np.frombuffer(axis), frequency_hz):
-            raise BoltedJointError(
-                f"{os.fspath(path)}: found other lines of {response}/{reference} than of "
-                f"{curves[0][0]}/{curves[0][1]}, expected one frequency axis"
-            )
-        place = (slice(None), responses.index(response), references.index(reference))
-        values[place] = np.frombuffer(numbers, dtype=np.complex128)
-    coherence = None
-    if coherences:
-        coherence = np.full(shape, np.nan)
-        for response, reference, axis, numbers in coherences:
-            known = response in responses and reference in references
-            if known and np.array_equal(np.frombuffer(axis), frequency_hz):
-                place = (slice(None), responses.index(response), references.index(reference))
-                coherence[place] = np.frombuffer(numbers)
-    return Functions(frequency_hz, values, responses, references, coherence=coherence, averages=stated)
+def _known_quantity(quantity: str) -> None:
+    if quantity not in _QUANTITIES:
+        raise BoltedJointError(f"quantity: found {quantity!r}, expected one of {', '.join(_QUANTITIES)}")
 
 
 def _names(argument: str, names: Sequence[str]) -> tuple[str, ...]:

@@ -1,14 +1,19 @@
 """`identify`: a study becomes a joint."""
 
 import tempfile
+import warnings
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._command import run
-from ._functions import Functions, read
+import numpy as np
+
+from ._command import NotUsableWarning, run
+from ._functions import Functions
 from ._joint import Joint
+from ._measured import assemblies, functions_of, with_joints
 from ._respond import respond
-from ._study import AnyStudy, Study, as_file
+from ._study import AnyStudy, as_file, tables_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -53,25 +58,65 @@ class Identification:
             raise ValueError(f"found joints of {', '.join(self.joints)}; take one of them from joints")
         return next(iter(self.joints.values()))
 
-    def measured(self) -> Functions:
-        """The functions of the assembly that were measured, as receptances."""
-        study = self._study if isinstance(self._study, dict) else Study.read(self._study)  # type: ignore[arg-type]
-        functions = study["assembly"]["frf"]
-        if isinstance(functions, Functions):
-            return functions
-        folder = study.folder if isinstance(study, Study) else Path()
-        return read(folder / functions)
+    def measured(self, assembly: int = 0) -> Functions:
+        """The functions of the assembly that were measured, as receptances in SI units.
 
-    def regenerated(self, step_hz: float | None = None) -> Functions:
-        """The functions that the assembly would have with the identified joint; needs one joint for all bolts."""
-        return respond(self._study, self.joint, step_hz=step_hz)
+        Parameters
+        ----------
+        assembly : int
+            Which of the study's assemblies, from 0 on.
 
-    def plot(self, **options: Any) -> "Figure":
-        """Draws the measured functions and those of the identified joint; see `bolted_joint._plot.functions`."""
+        Raises
+        ------
+        BoltedJointError
+            If no functions were measured, as for laps; `details` has what was.
+        """
+        return functions_of(self._study, assembly)
+
+    def regenerated(self, step_hz: float | None = None, assembly: int = 0) -> Functions:
+        """The functions that the assembly would have with what was identified, as receptances.
+
+        Parameters
+        ----------
+        step_hz : float, optional
+            Distance between the lines, Hz; 0.25, or in space that of the measured ones, if it is left out.
+        assembly : int
+            Which of the study's assemblies, from 0 on. A joint over the preload is taken at its torque.
+
+        Raises
+        ------
+        BoltedJointError
+            If no functions were measured, as for laps.
+        """
+        study = with_joints(self._study, self.joints, assembly)
+        with warnings.catch_warnings():
+            # `identify` has told it
+            warnings.simplefilter("ignore", NotUsableWarning)
+            if study["method"] == "frf-space":
+                if step_hz is None and not any("frf" in part for part in study.values() if isinstance(part, Mapping)):
+                    # nothing else says where the lines are
+                    step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
+                response = respond(study, step_hz=step_hz)
+                assert isinstance(response, Functions)
+                return response
+            return respond(study, self.joints, step_hz=step_hz)
+
+    def plot(self, assembly: int = 0, **options: Any) -> "Figure":
+        """Draws what was measured and what the identified joint makes of it.
+
+        These are functions of one of the study's assemblies, numbered from 0 on (see `bolted_joint._plot.functions` for
+        `options`); of laps natural frequencies over the torque, or backbones and resonances.
+        """
         from . import _plot
 
-        measured, regenerated = self.measured(), self.regenerated()
-        return _plot.functions({"measured": measured, "identified": regenerated}, **options)
+        method = tables_of(self._study)["method"]
+        if method == "lap-update":
+            return _plot.frequencies(self.details["torques"])
+        if method == "lap-response":
+            return _plot.runs(self.details["backbones"], self.details["predictions"])
+        of = f", assembly {assembly}" if len(assemblies(tables_of(self._study))) > 1 else ""
+        sets = {f"measured{of}": self.measured(assembly), f"identified{of}": self.regenerated(assembly=assembly)}
+        return _plot.functions(sets, **options)
 
     def __repr__(self) -> str:
         return f"<Identification: {', '.join(repr(joint) for joint in self.joints.values())}>"

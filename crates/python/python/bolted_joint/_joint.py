@@ -3,23 +3,32 @@
 import copy
 import json
 import os
+import tempfile
+import warnings
+import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._command import BoltedJointError
+from ._command import BoltedJointError, run
 from ._html import table, with_deviation
+from ._values import checked
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MATRICES = {"stiffness": "k", "damping": "c"}
 
+#: A matrix, where in the table of a joint over the preload it stands, row and column.
+_Place = tuple[str, int | None, int, int]
+
 
 class Joint:
     """A joint, as its file has it.
+
+    A joint over the preload has matrices at each of its `preloads`; `at_preload` gives the joint at one of them.
 
     Parameters
     ----------
@@ -47,8 +56,15 @@ class Joint:
         return cls(data)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the joint file."""
-        Path(path).write_text(json.dumps(self.data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+        """Writes the joint file.
+
+        Raises
+        ------
+        BoltedJointError
+            With the key of a value that the file has no word for, such as NaN.
+        """
+        data = checked(self.data, "data")
+        Path(path).write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
     @property
     def name(self) -> str:
@@ -61,38 +77,85 @@ class Joint:
         return tuple(self.data["joint"]["dofs"])
 
     @property
+    def preloads(self) -> tuple[float, ...]:
+        """Preloads of its table, N·m, of a joint over the preload; none of another joint."""
+        return tuple(float(preload) for preload in self._table().get("preload", ()))
+
+    @property
+    def nominal_preload(self) -> float | None:
+        """Preload that a joint over the preload has unless another is named, N·m; none of another joint."""
+        table = self._table()
+        return float(table["nominal"]) if table else None
+
+    def at_preload(self, preload_n_m: float | None = None) -> "Joint":
+        """The joint at one preload, of a joint over the preload.
+
+        Parameters
+        ----------
+        preload_n_m : float, optional
+            The preload, N·m, within the table; between its `preloads` the joint is interpolated. The nominal one if it
+            is left out.
+
+        Returns
+        -------
+        Joint
+            A joint with one K and one C, whose name tells the preload. A joint that does not depend on the preload is
+            as it was where none is given.
+
+        Raises
+        ------
+        BoltedJointError
+            If the joint has no such preload.
+        """
+        if not self.preloads and preload_n_m is None:
+            return Joint(copy.deepcopy(self.data))
+        preload = self.nominal_preload if preload_n_m is None else float(preload_n_m)
+        with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+            given, fmu = Path(folder, "given.joint.json"), Path(folder, "frozen.fmu")
+            self.save(given)
+            with warnings.catch_warnings():
+                # what is wrong with the joint is told where it is used
+                warnings.simplefilter("ignore")
+                arguments = ["export", str(given), "-o", str(fmu), "--preload", repr(preload)]
+                run([*arguments, "--allow-active", "--unusable"], folder + os.sep)
+            with zipfile.ZipFile(fmu) as archive:
+                return Joint(json.loads(archive.read("resources/joint.json")))
+
+    @property
     def stiffness(self) -> NDArray[np.float64]:
-        """K over `dofs`, N/m, N/rad and N·m/rad."""
+        """K over `dofs`, N/m, N/rad and N·m/rad; of a joint over the preload see `at_preload`."""
+        self._want_one("stiffness")
         return np.array(self.data["joint"]["stiffness"], dtype=np.float64)
 
     @property
     def damping(self) -> NDArray[np.float64]:
-        """C over `dofs`, N·s/m, N·s/rad and N·m·s/rad."""
+        """C over `dofs`, N·s/m, N·s/rad and N·m·s/rad; of a joint over the preload see `at_preload`."""
+        self._want_one("damping")
         return np.array(self.data["joint"]["damping"], dtype=np.float64)
 
     @property
     def stiffness_deviation(self) -> NDArray[np.float64] | None:
         """Standard deviation of each entry of K, if the file states it."""
-        return self._uncertain("standard_deviation", "stiffness")
+        return self._uncertain("stiffness_deviation", "standard_deviation", "stiffness")
 
     @property
     def damping_deviation(self) -> NDArray[np.float64] | None:
         """Standard deviation of each entry of C, if the file states it."""
-        return self._uncertain("standard_deviation", "damping")
+        return self._uncertain("damping_deviation", "standard_deviation", "damping")
 
     @property
     def stiffness_interval_95(self) -> NDArray[np.float64] | None:
         """Interval of 95 % of each entry of K: shape (N, N, 2)."""
-        return self._uncertain("interval_95", "stiffness")
+        return self._uncertain("stiffness_interval_95", "interval_95", "stiffness")
 
     @property
     def damping_interval_95(self) -> NDArray[np.float64] | None:
         """Interval of 95 % of each entry of C: shape (N, N, 2)."""
-        return self._uncertain("interval_95", "damping")
+        return self._uncertain("damping_interval_95", "interval_95", "damping")
 
     @property
     def unknowns(self) -> tuple[str, ...]:
-        """Names of the unknowns, in the order of `covariance`."""
+        """Names of the unknowns, in the order of `covariance`; over the preload such as ``"k_yy@10"`` at 10 N·m."""
         return tuple(self._correlation().get("unknowns", ()))
 
     @property
@@ -102,11 +165,7 @@ class Joint:
         correlation = self._correlation()
         if places is None or not correlation:
             return None
-        deviations = {
-            "stiffness": self.stiffness_deviation,
-            "damping": self.damping_deviation,
-        }
-        sizes = np.array([deviations[matrix][place] for matrix, place in places])  # type: ignore[index]
+        sizes = np.array([self._deviations(entry)[matrix][row][column] for matrix, entry, row, column in places])
         return np.outer(sizes, sizes) * np.array(correlation["matrix"], dtype=np.float64)
 
     @property
@@ -125,7 +184,7 @@ class Joint:
         return self.stiffness + 1j * omega[:, None, None] * self.damping
 
     def draw(self, rng: np.random.Generator) -> "Joint":
-        """A joint drawn from the normal distribution of its unknowns.
+        """A joint drawn from the normal distribution of its unknowns, those at all preloads at once.
 
         Parameters
         ----------
@@ -140,59 +199,123 @@ class Joint:
         covariance = self.covariance
         places = self._places()
         if covariance is None or places is None:
-            raise BoltedJointError(f"{self.name}: found no covariance of the entries of K and C, expected one to draw from")
+            at = " at all preloads" if self.preloads else ""
+            raise BoltedJointError(
+                f"{self.name}: found no covariance of the entries of K and C{at}, expected one to draw from"
+            )
         change = rng.multivariate_normal(np.zeros(len(covariance)), covariance, method="eigh")
         data = copy.deepcopy(self.data)
-        for size, (matrix, (row, column)) in zip(change, places, strict=True):
-            entries = data["joint"][matrix]
+        for size, (matrix, entry, row, column) in zip(change, places, strict=True):
+            joint = data["joint"]
+            entries = joint[matrix] if entry is None else joint["over_preload"][matrix][entry]
             entries[row][column] += float(size)
             if row != column:
                 entries[column][row] = entries[row][column]
         return Joint(data)
 
     def plot(self, **options: Any) -> "Figure":
-        """Draws K + iωC over frequency; see `bolted_joint._plot.joints`."""
+        """Draws K + iωC over frequency, over the preload at each of its `preloads`; see `bolted_joint._plot.joints`."""
         from . import _plot
 
         return _plot.joints([self], **options)
 
     def __repr__(self) -> str:
-        return f"<Joint {self.name!r}: {', '.join(self.dofs)}{'' if self.usable else '; not to be relied on'}>"
+        over = f"; at preloads of {_listed(self.preloads)} N·m" if self.preloads else ""
+        return f"<Joint {self.name!r}: {', '.join(self.dofs)}{over}{'' if self.usable else '; not to be relied on'}>"
 
     def _repr_html_(self) -> str:
         against = "".join(f"; not to be relied on: {reason}" for reason in self.reasons_against)
-        return table(self.name + against, ("entry", "K", "C"), self._rows())
-
-    def _rows(self) -> list[tuple[str, str, str]]:
-        size = len(self.dofs)
-        deviations = [self.stiffness_deviation, self.damping_deviation]
-        shown = [
-            [
-                with_deviation(values[entry], 0.0 if deviation is None else deviation[entry])
-                for values, deviation in zip((self.stiffness, self.damping), deviations, strict=True)
-            ]
-            for entry in zip(*np.triu_indices(size), strict=True)
+        if not self.preloads:
+            rows = self._rows(None) + self._laws()
+            return table(self.name + against, ("entry", "K", "C"), rows)
+        over = f"; over the preload, nominally {self.nominal_preload:g} N·m"
+        rows = [
+            (f"{preload:g}", *row) for entry, preload in enumerate(self.preloads) for row in self._rows(entry)
         ]
-        names = [
-            f"{self.dofs[row]}, {self.dofs[column]}" for row, column in zip(*np.triu_indices(size), strict=True)
-        ]
-        return [(name, stiffness, damping) for name, (stiffness, damping) in zip(names, shown, strict=True)]
+        return table(self.name + over + against, ("preload, N·m", "entry", "K", "C"), rows)
 
-    def _uncertain(self, what: str, matrix: str) -> NDArray[np.float64] | None:
+    def _rows(self, entry: int | None) -> list[tuple[str, ...]]:
+        """Entries of the upper triangles, of those at a place in the table of preloads if there is one."""
+        joint = self.data["joint"] if entry is None else self._table()
+        deviations = self._deviations(entry)
+        shown: list[tuple[str, ...]] = []
+        for row, first in enumerate(self.dofs):
+            for column, second in enumerate(self.dofs[row:], row):
+                cells = []
+                for matrix in _MATRICES:
+                    values = joint[matrix] if entry is None else joint[matrix][entry]
+                    deviation = deviations[matrix][row][column] if deviations else 0.0
+                    cells.append(with_deviation(values[row][column], deviation))
+                shown.append((f"{first}, {second}", *cells))
+        return shown
+
+    def _laws(self) -> list[tuple[str, ...]]:
+        """Laws that remember, which stand beside K and C."""
+        laws = self.data["joint"].get("friction", [])
+        return [
+            (
+                f"{law['dof']}, {law['law']}",
+                "; ".join(f"{key} {value:.6g}" for key, value in law.items() if key not in ("dof", "law")),
+                "",
+            )
+            for law in laws
+        ]
+
+    def _table(self) -> dict[str, Any]:
+        """The table of a joint over the preload; nothing of another joint."""
+        found: dict[str, Any] = self.data["joint"].get("over_preload") or {}
+        return found
+
+    def _want_one(self, name: str) -> None:
+        """Refuses a joint over the preload where one matrix is asked for."""
+        if self.preloads:
+            raise BoltedJointError(
+                f"{self.name}: found {name} over the preload (at {_listed(self.preloads)} N·m), expected that at one "
+                f"preload: at_preload({self.nominal_preload:g}).{name}"
+            )
+
+    def _uncertain(self, name: str, what: str, matrix: str) -> NDArray[np.float64] | None:
+        self._want_one(name)
         entries = self.data.get("uncertainty", {}).get(what)
         return None if entries is None else np.array(entries[matrix], dtype=np.float64)
 
-    def _correlation(self) -> dict[str, Any]:
-        found: dict[str, Any] = self.data.get("uncertainty", {}).get("correlation", {})
+    def _deviations(self, entry: int | None) -> dict[str, Any]:
+        """Standard deviations of both matrices, of those at a place in the table of preloads if there is one."""
+        uncertainty: dict[str, Any] = self.data.get("uncertainty") or {}
+        if entry is not None:
+            table = uncertainty.get("over_preload")
+            if table is None:
+                # what is stated of such a joint alone is that of its nominal preload
+                return uncertainty.get("standard_deviation", {}) if self._is_nominal(entry) else {}
+            uncertainty = table["at"][entry]
+        found: dict[str, Any] = uncertainty.get("standard_deviation", {})
         return found
 
-    def _places(self) -> list[tuple[str, tuple[int, int]]] | None:
+    def _is_nominal(self, entry: int) -> bool:
+        return self.preloads[entry] == self.nominal_preload
+
+    def _correlation(self) -> dict[str, Any]:
+        uncertainty = self.data.get("uncertainty", {})
+        if self.preloads:
+            uncertainty = uncertainty.get("over_preload", {})
+        found: dict[str, Any] = uncertainty.get("correlation", {})
+        return found
+
+    def _places(self) -> list[_Place] | None:
         """Where in K and C each unknown stands; none where one is no entry of its own."""
-        names = {}
+        at: list[tuple[int | None, str]] = [
+            (entry, f"@{np.format_float_positional(preload, trim='-')}") for entry, preload in enumerate(self.preloads)
+        ]
+        names: dict[str, _Place] = {}
         for matrix, letter in _MATRICES.items():
             for row, first in enumerate(self.dofs):
                 for column, second in enumerate(self.dofs[row:], row):
                     for name in (f"{letter}_{first}{second}", f"{letter}_{first}_{second}"):
-                        names[name] = (matrix, (row, column))
+                        for entry, ending in at or [(None, "")]:
+                            names[name + ending] = (matrix, entry, row, column)
         places = [names.get(name) for name in self.unknowns]
         return None if None in places else places  # type: ignore[return-value]
+
+
+def _listed(preloads: tuple[float, ...]) -> str:
+    return ", ".join(f"{preload:g}" for preload in preloads)

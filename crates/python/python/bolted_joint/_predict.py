@@ -2,11 +2,18 @@
 
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._command import run
 from ._joint import Joint
+from ._respond import Response, respond
 from ._study import AnyStudy, as_file
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Amplitudes of the loops of a joint that slips, in parts of that at which its spring alone has the slip force.
+_LOOPS = (0.5, 1.0, 2.0)
 
 
 class Prediction:
@@ -26,6 +33,38 @@ class Prediction:
         self.joint = joint
         self.details = details
         self.report_html = report_html
+
+    def plot(self, **options: Any) -> "Figure":
+        """Draws what was predicted.
+
+        Of a layered beam that is damping over the amplitude; of an interface that slips, loops of load over
+        displacement; else K + iωC over frequency, at each preload of a joint over the preload (see
+        `bolted_joint._plot.joints` for `options`).
+        """
+        from . import _plot
+
+        if "result" in self.details:
+            return _plot.damping_over_amplitude(self.details["result"], **options)
+        laws = self.joint.data["joint"].get("friction", [])
+        if laws and not self.joint.preloads:
+            return _plot.response(self._loops(laws[0]), "load", f"relative.{laws[0]['dof']}", **options)
+        return self.joint.plot(**options)
+
+    def _loops(self, law: dict[str, Any]) -> Response:
+        slip = law["slip_force"] / law["stiffness"]
+        motion = f"relative.{law['dof']}"
+        loops = respond(
+            {
+                "method": "respond",
+                "kind": "hysteresis",
+                "name": self.joint.name,
+                "motions": [motion],
+                "lap": [{"joint": self.joint}],
+                "response": {"of": motion, "amplitude": [part * slip for part in _LOOPS]},
+            }
+        )
+        assert isinstance(loops, Response)
+        return loops
 
     def __repr__(self) -> str:
         return f"<Prediction: {self.joint!r}>"

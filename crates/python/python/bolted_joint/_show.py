@@ -4,7 +4,7 @@ import os
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,9 @@ from ._command import BoltedJointError, path_of, run
 from ._functions import Functions
 from ._html import table
 from ._joint import Joint
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: What `show` tells of.
 Shown = str | os.PathLike[str] | Joint | Functions
@@ -127,6 +130,12 @@ class Comparison:
         self.details = details
         self.page_html = page_html
 
+    def plot(self) -> "Figure":
+        """Draws the numbers with their intervals of 95 %; see `bolted_joint._plot.comparison`."""
+        from . import _plot
+
+        return _plot.comparison(self)
+
     def __repr__(self) -> str:
         return f"<Comparison of {', '.join(self.names)}>"
 
@@ -176,7 +185,8 @@ def compare(
     if len(joints) < 2:
         raise BoltedJointError(f"joints: found {len(joints)}, expected at least two")
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
-        paths = [_joint_file(joint, Path(folder, f"joint-{place + 1}.joint.json")) for place, joint in enumerate(joints)]
+        files = (Path(folder, f"joint-{number}.joint.json") for number in range(1, len(joints) + 1))
+        paths = [_joint_file(joint, file) for joint, file in zip(joints, files, strict=True)]
         drawing = Path(folder, "page.html")
         arguments = ["compare", *paths]
         if preload_n_m is not None:

@@ -14,6 +14,7 @@ from . import _native
 from ._command import BoltedJointError, path_of
 from ._functions import Functions
 from ._joint import Joint
+from ._values import single, within
 
 #: Keys whose texts are never paths.
 _TEXTS = ("name", "notes", "method", "model")
@@ -70,6 +71,13 @@ class Study(dict[str, Any]):
 AnyStudy = str | os.PathLike[str] | Mapping[str, Any]
 
 
+def tables_of(study: AnyStudy) -> Study:
+    """A study's tables as a dictionary of its own, with the folder that its paths are relative to."""
+    if isinstance(study, Mapping):
+        return Study(study, study.folder if isinstance(study, Study) else ".")
+    return Study.read(study)
+
+
 @contextlib.contextmanager
 def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
     """The path of a study's file while the context lasts, and what of it messages need not show.
@@ -81,7 +89,9 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
         return
     folder = study.folder if isinstance(study, Study) else Path.cwd()
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
-        tables = _Tables(folder, Path(temporary)).written(study, "study")
+        # a study of a joint in space has no such key
+        has_units = study.get("method") != "frf-space"
+        tables = _Tables(folder, Path(temporary), has_units).written(study, "study", "study")
         try:
             text = _native.to_toml(json.dumps(tables, allow_nan=False))
         except ValueError as error:
@@ -102,15 +112,19 @@ def command_of(path: str, hidden: str) -> str:
 class _Tables:
     """Makes of a dictionary's values what TOML has words for; arrays of functions and joints become files."""
 
-    def __init__(self, folder: Path, temporary: Path):
+    def __init__(self, folder: Path, temporary: Path, has_units: bool):
         self.folder = folder
+        self.has_units = has_units
         self.temporary = temporary
         self.names: set[str] = set()
 
-    def written(self, value: Any, key: str) -> Any:
+    def written(self, value: Any, key: str, place: str) -> Any:
+        """A value as TOML has it; `key` names its file, and `place` says where it is in the dictionary."""
         if isinstance(value, Mapping):
-            tables = {str(name): self.written(inner, f"{key}.{name}") for name, inner in value.items()}
-            if isinstance(value.get("frf"), Functions):
+            tables = {
+                str(name): self.written(inner, f"{key}.{name}", within(place, name)) for name, inner in value.items()
+            }
+            if self.has_units and _are_functions(value.get("frf")):
                 tables.setdefault("units", {"length": "m", "force": "N"})
             return tables
         if isinstance(value, Functions):
@@ -127,10 +141,10 @@ class _Tables:
         if isinstance(value, str):
             return self.text(value, key)
         if isinstance(value, np.ndarray | np.generic):
-            return self.written(value.tolist(), key)
-        if isinstance(value, Sequence):
-            return [self.written(inner, key) for inner in value]
-        return value
+            return self.written(value.tolist(), key, place)
+        if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
+            return [self.written(inner, key, within(place, number)) for number, inner in enumerate(value)]
+        return single(value, place)
 
     def text(self, value: str, key: str) -> str:
         """A text; the whole path if it names a file."""
@@ -152,3 +166,9 @@ class _Tables:
         self.names.add(name)
         return self.temporary / (name + ending)
 
+
+def _are_functions(value: Any) -> bool:
+    """Whether a key has functions as arrays, which are in SI units, and no file's."""
+    if isinstance(value, list | tuple):
+        return len(value) > 0 and all(isinstance(one, Functions) for one in value)
+    return isinstance(value, Functions)

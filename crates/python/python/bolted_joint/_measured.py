@@ -1,0 +1,80 @@
+"""What a study says was measured on its assemblies, and the study of one assembly with the joint that was found."""
+
+import os
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from ._command import BoltedJointError
+from ._functions import Functions
+from ._joint import Joint
+from ._read import together
+from ._study import AnyStudy, Study, tables_of
+
+
+def functions_of(study: AnyStudy, assembly: int) -> Functions:
+    """The functions of one of a study's assemblies as receptances in SI units, with all that the study says of them."""
+    tables = tables_of(study)
+    table = assemblies(tables)[_place(tables, assembly)]
+    with warnings.catch_warnings():
+        # of units that a file does not state `identify` has told
+        warnings.simplefilter("ignore")
+        return together(
+            [one if isinstance(one, Functions) else tables.folder / one for one in _listed(table["frf"])],
+            quantity=table.get("quantity"),
+            averages=table.get("averages"),
+            units=table.get("units"),
+            coherence=[tables.folder / path for path in _listed(table.get("coherence", []))],
+        )
+
+
+def with_joints(study: AnyStudy, joints: Mapping[str, Joint], assembly: int) -> Study:
+    """The study of one of a study's assemblies, with joints in it where it is one of joints in space."""
+    tables = tables_of(study)
+    table = assemblies(tables)[_place(tables, assembly)]
+    if tables.get("method") == "frf-space":
+        del tables["assembly"]
+        tables["joint"] = _known(tables["joint"], joints)
+    else:
+        tables["assembly"] = [table]
+        # one assembly has one joint, which is that at its torque
+        tables["joint"] = {key: value for key, value in tables["joint"].items() if key != "torques"}
+    return tables
+
+
+def assemblies(tables: Study) -> list[Mapping[str, Any]]:
+    """The assemblies of which functions were measured.
+
+    Raises
+    ------
+    BoltedJointError
+        If the study has none.
+    """
+    found = _listed(tables.get("assembly", []))
+    if not found or not all("frf" in table for table in found):
+        raise BoltedJointError(
+            f"found a study of method \"{tables.get('method')}\" without functions of an assembly, expected one with "
+            "the key assembly.frf; details has what was measured"
+        )
+    return found
+
+
+def _known(joint: Any, joints: Mapping[str, Joint]) -> list[dict[str, Any]]:
+    """The joints of a chain, with the ones that were found in place of those that were sought."""
+    places = _listed(joint)
+    return [
+        dict(table) if "known" in table else {"known": joints[str(number)] if len(joints) > 1 else joints[""]}
+        for number, table in enumerate(places, 1)
+    ]
+
+
+def _place(tables: Study, assembly: int) -> int:
+    count = len(assemblies(tables))
+    if not 0 <= assembly < count:
+        raise BoltedJointError(f"assembly: found {assembly}, expected a number from 0 to {count - 1}")
+    return assembly
+
+
+def _listed(value: Any) -> list[Any]:
+    """A list, of one where there is no list."""
+    return [value] if isinstance(value, Mapping | Functions | str | os.PathLike) else list(value)

@@ -1,0 +1,205 @@
+"""What was measured, beside what the identified joint makes of it: receptances in SI units, whatever the study has."""
+
+import copy
+import pathlib
+
+import numpy as np
+import pytest
+
+import bolted_joint
+from bolted_joint import BoltedJointError, Functions
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MILLIMETRES = {"length": "mm", "force": "N"}
+
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:.*no units"),
+    pytest.mark.filterwarnings("ignore::bolted_joint.NotUsableWarning"),
+]
+
+
+@pytest.fixture(autouse=True)
+def no_window():
+    pytest.importorskip("matplotlib").use("Agg")
+
+
+def with_values(functions, values, **options):
+    return Functions(functions.frequency_hz, values, functions.responses, functions.references, **options)
+
+
+def close(found, expected):
+    assert found.quantity == "receptance"
+    found = found.select(expected.responses, expected.references)
+    np.testing.assert_array_equal(found.frequency_hz, expected.frequency_hz)
+    np.testing.assert_allclose(found.values, expected.values, rtol=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["paths", "functions", "both"])
+def test_functions_in_several_files_are_one_measurement(short, tmp_path, kind):
+    whole = short["assembly"]["frf"]
+    parts = [whole.select(references=[name]) for name in whole.references]
+    if kind != "functions":
+        for number, part in enumerate(parts):
+            part.save(tmp_path / f"{number}.csv")
+            parts[number] = tmp_path / f"{number}.csv" if kind == "paths" or number else part
+    short["assembly"]["frf"] = parts
+    found = bolted_joint.identify(short)
+    close(found.measured(), whole)
+    labels = [line.get_label() for line in found.plot().axes[0].lines]
+    assert "13:+Y/13:+Y measured" in labels and "13:+Y/13:+Y identified" in labels
+
+
+def test_a_study_in_millimetres_is_measured_in_metres(short, tmp_path):
+    whole = short["assembly"]["frf"]
+    # receptances of displacements: 1 m/N is 1000 mm/N
+    with_values(whole, 1e3 * whole.values).save(tmp_path / "millimetres.csv")
+    short["assembly"] |= {"frf": tmp_path / "millimetres.csv", "units": MILLIMETRES}
+    of_file = bolted_joint.identify(short)
+    close(of_file.measured(), whole)
+    short["assembly"]["frf"] = with_values(whole, 1e3 * whole.values)
+    of_arrays = bolted_joint.identify(short)
+    close(of_arrays.measured(), whole)
+    np.testing.assert_allclose(of_arrays.joint.stiffness, of_file.joint.stiffness, rtol=1e-9)
+    regenerated = of_file.regenerated()
+    lines = np.searchsorted(regenerated.frequency_hz, whole.frequency_hz[whole.frequency_hz <= 512])
+    lines = lines[lines < len(regenerated.frequency_hz)]
+    ratio = np.abs(regenerated["13:+Y", "13:+Y"][lines]) / np.abs(of_file.measured()["13:+Y", "13:+Y"][: len(lines)])
+    assert 0.5 < np.median(ratio) < 2.0
+
+
+def test_accelerance_is_drawn_as_the_receptance_that_it_is(short):
+    whole = short["assembly"]["frf"]
+    # A = (iω)² H
+    factor = (2j * np.pi * whole.frequency_hz[:, None, None]) ** 2
+    accelerance = with_values(whole, whole.values * factor, quantity="accelerance")
+    short["assembly"]["frf"] = accelerance
+    found = bolted_joint.identify(short)
+    close(found.measured(), whole)
+    above = found.plot().axes[0]
+    assert above.get_ylabel() == "receptance, SI"
+    curves = {line.get_label(): line.get_ydata() for line in above.lines}
+    np.testing.assert_allclose(curves["13:+Y/13:+Y measured"], np.abs(whole["13:+Y", "13:+Y"]), rtol=1e-12)
+    # the study has the last word of what its functions are
+    short["assembly"] |= {"frf": with_values(whole, accelerance.values), "quantity": "accelerance"}
+    close(bolted_joint.identify(short).measured(), whole)
+
+
+def test_each_of_several_assemblies_is_measured_and_regenerated_at_its_torque(short):
+    whole, points = short["assembly"]["frf"], short["assembly"]["points"]
+    first = bolted_joint.identify(short).joint
+    softer = copy.deepcopy(first)
+    softer.data["joint"]["stiffness"] = (0.5 * first.stiffness).tolist()
+    step_hz = whole.frequency_hz[1] - whole.frequency_hz[0]
+    exact = bolted_joint.respond(short, first, step_hz=step_hz, noise="frf")
+    other = bolted_joint.respond(short, softer, step_hz=step_hz, noise="frf")
+    short["assembly"] = [
+        {"frf": exact, "points": points, "torque": 30},
+        {"frf": other, "points": points, "torque": 10},
+    ]
+    short["joint"]["torques"] = "separate"
+    found = bolted_joint.identify(short)
+    close(found.measured(), exact)
+    close(found.measured(1), other)
+    for assembly, torque in enumerate((30, 10)):
+        alone = copy.deepcopy(short)
+        alone["assembly"] = short["assembly"][assembly]
+        del alone["joint"]["torques"]
+        expected = bolted_joint.respond(alone, found.joint.at_preload(torque), step_hz=5)
+        np.testing.assert_array_equal(found.regenerated(5, assembly).values, expected.values)
+    labels = [line.get_label() for line in found.plot(assembly=1).axes[0].lines]
+    assert "13:+Y/13:+Y measured, assembly 1" in labels and "13:+Y/13:+Y identified, assembly 1" in labels
+    with pytest.raises(BoltedJointError, match="found 2, expected a number from 0 to 1"):
+        found.measured(2)
+
+
+@pytest.mark.filterwarnings("ignore:kN cannot be identified")
+def test_of_a_lap_frequencies_are_drawn():
+    found = bolted_joint.identify(ROOT / "examples/pirdayr-update/with-a-mass.toml")
+    with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
+        found.measured()
+    with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
+        found.regenerated()
+    (axes,) = found.plot().axes
+    curves = {line.get_label(): line for line in axes.lines}
+    # 639 and 691 rad/s at 2 and 8 N·m, in Table 4
+    hertz = curves["mode 1 measured"].get_ydata()
+    np.testing.assert_allclose([hertz[0], hertz[-1]], np.array([639, 691]) / (2 * np.pi))
+    np.testing.assert_allclose(curves["mode 1 identified"].get_ydata(), hertz, rtol=1e-3)
+    assert list(curves["mode 2 measured"].get_xdata()) == [2, 4, 6, 8]
+
+
+@pytest.mark.filterwarnings("ignore:the residual is")
+def test_of_a_backbone_frequencies_and_damping_are_drawn():
+    study = {
+        "method": "lap-response",
+        "name": "flat",
+        "model": {"drive": "relative", "response": "relative", "terms": ["k3"], "compare": False},
+        "known": {"m": 2.1107},
+        "noise": {"frequency": 0.002, "damping": 0.1},
+        "backbone": [{"file": ROOT / "tests/data/backbones/brake-reuss-model-flat.csv", "name": "flat"}],
+    }
+    above, below = bolted_joint.identify(study).plot().axes
+    for axes in (above, below):
+        assert [line.get_label() for line in axes.lines] == ["flat measured", "flat identified"]
+        assert [len(line.get_xdata()) for line in axes.lines] == [23, 23]
+
+
+@pytest.mark.filterwarnings("ignore:.*impacts")
+def test_of_a_joint_in_space_functions_are_regenerated(tmp_path):
+    folder = ROOT / "examples/plan-in-space"
+    guess = bolted_joint.Joint.read(folder / "guess.joint.json")
+    parts = {}
+    for side, node, far in [("a", 14, 10), ("b", 20, 23)]:
+        elsewhere = [f"{far}:+{axis}" for axis in "XYZ"]
+        modes = folder / f"{side}-modes.toml"
+        parts[side] = {"modal": modes, "interface": node, "responses": elsewhere, "references": elsewhere}
+    frequency = {"from": 60, "to": 1800}
+    tables = {"method": "frf-space", "name": "in space", **parts, "joint": {"known": guess}, "frequency": frequency}
+    study = bolted_joint.Study(tables)
+    functions = bolted_joint.respond(study, step_hz=20)
+    study["assembly"] = {"frf": functions}
+    study["joint"] = {"model": "full", "length": 0.03}
+    study["budget"] = "none"
+    found = bolted_joint.identify(study)
+    close(found.measured(), functions)
+    regenerated = found.regenerated(20)
+    scale = np.abs(functions.values).max()
+    np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * scale)
+    assert found.plot().axes[0].lines
+
+
+@pytest.mark.filterwarnings("ignore:3 response points")
+def test_bolts_that_differ_have_a_joint_each():
+    beam = {"length": 0.3, "width": 0.025, "height": 0.006, "youngs_modulus": 70e9, "density": 2700,
+            "boundary": "fixed-free", "damping_ratio": 0.002}
+    joints = {
+        name: bolted_joint.Joint({
+            "format": "bolted-joint/1",
+            "name": name,
+            "joint": {"dofs": ["y", "theta"], "stiffness": [[k, 0], [0, 2e-3 * k]], "damping": [[10, 0], [0, 0.1]]},
+        })
+        for name, k in [("left", 6e5), ("right", 3e5)]
+    }
+    study = {
+        "method": "frf-decoupling",
+        "name": "two bolts",
+        "budget": "none",
+        "a": {"beam": beam, "joint": [{"name": "left", "x": 0.25}, {"name": "right", "x": 0.29}]},
+        "b": {
+            "beam": beam | {"length": 0.221, "boundary": "free-free"},
+            "joint": [{"name": "left", "x": 0.015}, {"name": "right", "x": 0.055}],
+            "points": {"11:+Y": 0.12, "12:+Y": 0.16, "13:+Y": 0.221},
+        },
+        "assembly": {"frf": "not-yet.uff", "points": ["11:+Y", "12:+Y", "13:+Y"]},
+        "joint": {"model": "diagonal", "bolts": "different", "rivals": False},
+        "frequency": {"from": 5, "to": 800},
+    }
+    functions = bolted_joint.respond(study, joints, step_hz=4)
+    study["assembly"]["frf"] = functions
+    study["noise"] = {"relative": 1e-3}
+    found = bolted_joint.identify(study)
+    assert list(found.joints) == ["left", "right"]
+    np.testing.assert_allclose(found.joints["right"].stiffness, joints["right"].stiffness, rtol=1e-3, atol=1.0)
+    regenerated = found.regenerated(4)
+    np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * np.abs(functions.values).max())
+    assert found.plot().axes[0].lines

@@ -1,0 +1,98 @@
+"""What notebooks show of results, and what is said of values that no file has a word for."""
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import bolted_joint
+from bolted_joint import BoltedJointError, Joint
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+M10 = ROOT / "tests/data/joint/m10-aluminium.joint.json"
+
+
+def test_the_version_is_the_command_lines(run):
+    assert run("--version").stdout.split() == ["bolted-joint", bolted_joint.__version__]
+
+
+def test_fmus_and_checks_are_tables(tmp_path):
+    fmu = bolted_joint.export(M10, tmp_path / "joint.fmu")
+    html = fmu._repr_html_()
+    assert "joint.fmu" in html and "element, FMI 3.0" in html and fmu.details["token"] in html
+    checked = bolted_joint.check(fmu)
+    html = checked._repr_html_()
+    assert "<caption>sound</caption>" in html and "terminals: a, b" in html
+    wrong = bolted_joint.Checked({"sound": False, "facts": [], "findings": ["it is <broken>"]})
+    assert "not sound" in wrong._repr_html_() and "it is &lt;broken&gt;" in wrong._repr_html_()
+
+
+def test_draws_are_a_table_of_their_percentiles(short):
+    draws = bolted_joint.draw(short, range(6), bootstrap=6)
+    html = draws._repr_html_()
+    median = np.median(draws.values[:, 0])
+    assert "draws 0 to 5, 6 of 6 with results" in html and f"<td>{median:.6g}</td>" in html
+    # a draw that came to nothing has no part in it
+    draws.values[3] = np.nan
+    assert "5 of 6 with results" in draws._repr_html_() and "nan" not in draws._repr_html_()
+    draws.values[:] = np.nan
+    assert "0 of 6 with results" in draws._repr_html_()
+
+
+def test_a_comparison_is_drawn_with_intervals():
+    pytest.importorskip("matplotlib").use("Agg")
+    joint = Joint.read(M10)
+    found = bolted_joint.compare(joint, joint)
+    panels = found.plot().axes
+    assert [axes.get_title() for axes in panels][:2] == ["k_yy, N/m", "k_ytheta, N/rad"] and len(panels) == 6
+    for drawn in panels[0].containers:
+        (segment,) = drawn[2][0].get_segments()
+        # 1.96 standard deviations to either side
+        half = 1.96 * joint.stiffness_deviation[0, 0]
+        np.testing.assert_allclose(segment[:, 1], joint.stiffness[0, 0] + np.array([-half, half]))
+
+
+@pytest.mark.filterwarnings("ignore:the polynomial pressure")
+def test_predictions_are_drawn_by_their_kind():
+    pytest.importorskip("matplotlib").use("Agg")
+    beam = bolted_joint.predict(ROOT / "examples/kavi-layered-beam/study.toml")
+    (axes,) = beam.plot().axes
+    assert axes.get_ylabel() == "damping ratio" and axes.lines[0].get_label().startswith("mode 1, 217")
+    # the calibration: 1.2 % at 0.1 mm
+    assert (axes.lines[0].get_xdata()[0], axes.lines[0].get_ydata()[0]) == (1e-4, 0.012)
+    assert "y, jenkins" in beam._repr_html_() and "slip_force" in beam._repr_html_()
+    study = bolted_joint.Study.read(ROOT / "examples/predict-microslip/study.toml")
+    study["uncertainty"]["draws"] = 200
+    slipping = bolted_joint.predict(study)
+    (axes,) = slipping.plot().axes
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("relative.y, m", "load, N") and len(axes.lines) == 3
+    law = slipping.joint.data["joint"]["friction"][0]
+    # at twice the displacement that the spring would have, all slips
+    assert np.abs(axes.lines[2].get_ydata()).max() == pytest.approx(law["slip_force"], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("study", "said"),
+    [
+        ({"a": {"beam": {"length": float("nan")}}}, r'study\["a"\]\["beam"\]\["length"\]: found nan, expected'),
+        ({"assembly": [{}, {"torque": None}]}, r'study\["assembly"\]\[1\]\["torque"\]: found None.*leave the key out'),
+        ({"bounds": {"k": np.array([1.0, np.inf])}}, r'study\["bounds"\]\["k"\]\[1\]: found inf, expected'),
+        ({"known": {"m": {1.0}}}, r'study\["known"\]\["m"\]: found an object of type set, expected a text'),
+        ({"known": {"m": 1 + 2j}}, r'study\["known"\]\["m"\]: found an object of type complex'),
+    ],
+    ids=["nan", "None", "in an array", "set", "complex"],
+)
+def test_a_value_that_no_study_has_is_named_by_its_place(study, said):
+    for function in (bolted_joint.identify, bolted_joint.predict):
+        with pytest.raises(BoltedJointError, match=said):
+            function({"method": "frf-decoupling", **study})
+
+
+def test_a_value_that_no_joint_file_has_is_named_by_its_place(tmp_path):
+    joint = Joint.read(M10)
+    joint.data["joint"]["stiffness"][1][0] = float("nan")
+    said = r'data\["joint"\]\["stiffness"\]\[1\]\[0\]: found nan, expected a finite number'
+    with pytest.raises(BoltedJointError, match=said):
+        joint.save(tmp_path / "x.joint.json")
+    with pytest.raises(BoltedJointError, match=said):
+        bolted_joint.export(joint, tmp_path / "x.fmu")

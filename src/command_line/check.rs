@@ -148,6 +148,15 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
         format!("degrees of freedom: {}", file.joint.dofs),
     ];
     facts.extend(passivity.matrices.iter().map(ToString::to_string));
+    if !file.joint.friction.is_empty() {
+        let laws = file.joint.friction.iter();
+        let laws = laws.map(|own| format!("{} on {}", own.law.name, own.dof.name));
+        let laws: Vec<String> = laws.collect();
+        facts.push(format!(
+            "friction: {}, passive with their parameters",
+            laws.join(", ")
+        ));
+    }
     // what a simulation does with the joint is told of the whole table, all of which an FMU may come to
     let joints = over_its_preloads(path, &file)?;
     if let Some(table) = &file.joint.over_preload {

@@ -39,7 +39,7 @@ pub(super) fn bolt_starts(
         layout.unknowns_of(&joint).map(DVector::from_vec)
     });
     let best: Vec<DVector<f64>> = best.collect();
-    for joint in 0..layout.joints() {
+    for joint in (0..layout.joints()).rev() {
         for factor in UNLIKE {
             first.extend(best.first().cloned().map(|mut start| {
                 for index in layout.indices_of(joint) {

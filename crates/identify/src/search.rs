@@ -65,6 +65,10 @@ pub(super) fn best(
 ) -> Result<Found, usize> {
     let mut candidates = first;
     let guesses = [None, candidates.last().cloned()];
+    // the best one comes first: with another that agrees it may be enough
+    if !candidates.is_empty() {
+        candidates.rotate_right(1);
+    }
     candidates.extend(data.thinned.linear_starts(entries, &guesses));
     let mut ways = Vec::new();
     let mut tried = match effort {

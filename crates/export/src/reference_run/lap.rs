@@ -24,11 +24,13 @@ const LOADED_LEVELS: usize = 32;
 const PERIODS: f64 = 8.0;
 /// … as far as these many of the FMU's Runge–Kutta steps go.
 const MOST_STEPS: f64 = 2e4;
+/// … and these many where each of them follows what a joint remembers, at many times the cost.
+const MOST_STEPS_WITH_MEMORY: f64 = 5e3;
 /// Runge–Kutta steps in a communication step where nothing moves by itself.
 const STEPS_WITHOUT_MODES: f64 = 5.0;
 
-/// Steps of the reference in one step of the FMU: its error is smaller by the fourth power of this, 65536.
-const REFINEMENT: NonZeroU32 = NonZeroU32::MIN.saturating_add(15);
+/// Steps of the reference in one step of the FMU: its error is smaller by the fourth power of this, 4096.
+const REFINEMENT: NonZeroU32 = NonZeroU32::MIN.saturating_add(7);
 
 /// The FMU may differ by this many times what its Runge–Kutta steps make it differ.
 const MARGIN: f64 = 10.0;
@@ -122,7 +124,7 @@ struct Course<const D: usize> {
 impl<const D: usize> Course<D> {
     /// `None` if there is nothing that stays finite.
     fn new(system: &System<'_, D>, facts: &LapFacts) -> Option<Self> {
-        let plan = Plan::new(facts)?;
+        let plan = Plan::new(facts, system.laws.have_memory())?;
         let levels = plan.levels(system)?;
         Some(Self {
             of_fmu: plan.states(system, &levels, NonZeroU32::MIN)?,
@@ -134,6 +136,14 @@ impl<const D: usize> Course<D> {
 }
 
 impl<const D: usize> Laws<D> {
+    /// Whether the joint remembers, at any preload.
+    fn have_memory(&self) -> bool {
+        match self {
+            Self::Constant(law) => law.has_memory(),
+            Self::Table { .. } => self.at(0).has_memory(),
+        }
+    }
+
     /// Whether the outputs at this communication point can be compared: where a level begins, importers differ in whether they
     /// read before or after they set the inputs, and with the preload the outputs jump.
     fn tells(&self, step: usize) -> bool {
@@ -210,9 +220,14 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(facts: &LapFacts) -> Option<Self> {
+    fn new(facts: &LapFacts, have_memory: bool) -> Option<Self> {
         let longest_s = facts.step.longest_s;
-        let most_s = MOST_STEPS * longest_s;
+        let most_steps = if have_memory {
+            MOST_STEPS_WITH_MEMORY
+        } else {
+            MOST_STEPS
+        };
+        let most_s = most_steps * longest_s;
         let duration_s = match facts.modes.first() {
             Some(slowest) => (PERIODS / slowest.frequency_hz).min(most_s),
             None => STEPS_WITHOUT_MODES * longest_s * COMMUNICATION_STEPS as f64,

@@ -228,7 +228,7 @@ mod tests {
             ("", "pond", "\"pond\""),
             ("nm", "N", "\"nm\""),
             ("ips", "N", "\"ips\""),
-            ("mm", "stone", "\"stone\""),
+            ("mm/s^2", "stone", "\"stone\""),
         ] {
             let problem = scale(unit, load, None).unwrap_err().to_string();
             assert!(problem.contains(named), "{problem}");

@@ -12,6 +12,8 @@ use super::study::{LapResponseStudy, NoiseIs};
 /// Standard deviations that the estimate may still move when the search ends: added to its error, √(1 + 0.3²), they widen it
 /// by less than a twentieth.
 const TOLERABLE_UNREST: f64 = 0.3;
+/// χ² per degree of freedom below which a residual is rounding.
+const ROUNDING: f64 = 1e-12;
 /// χ² per degree of freedom beyond which the residual, ten times the stated noise, is another thing than noise.
 const ABSURD: f64 = 100.0;
 /// χ² per degree of freedom up to which known noise accounts for a residual, however large.
@@ -36,12 +38,9 @@ impl LapResponse {
 
     fn because_of_the_search(&self) -> Option<String> {
         // χ² falls by the square of the deviations that the estimate still moves by
-        let noise = self.inflation * self.inflation;
-        let steps = (self.fit.left.max(0.0) / noise.max(f64::MIN_POSITIVE)).sqrt();
-        let left = match steps.is_finite() && noise > 0.0 {
-            true => steps.max(self.unrest),
-            false => self.unrest,
-        };
+        let noise = (self.inflation * self.inflation).max(ROUNDING);
+        let steps = (self.fit.left.max(0.0) / noise).sqrt();
+        let left = steps.max(self.unrest);
         if left > TOLERABLE_UNREST {
             return Some(format!(
                 "the search for the estimate has not converged: it still moved by {left:.1} standard deviations"

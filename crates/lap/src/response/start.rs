@@ -20,9 +20,11 @@ const CUBIC_SHARE: f64 = 0.02;
 
 /// Starts that are followed to their end, if more are tried: those that are best after a few steps.
 const MOST_STARTS: usize = 4;
-/// χ² per degree of freedom by which two searches that came to the same estimate may differ, as a part of it: that is a tenth of
-/// a standard deviation.
-const AGREES: f64 = 0.01;
+/// Standard deviations within which two searches came to the same estimate: where a law has a corner each point of the data
+/// near it may make a minimum of its own.
+const AGREES: f64 = 2.0;
+/// χ² per degree of freedom below which there is rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// Fits the model from all starts and keeps the best, with the number of those that were followed and of those that came to it.
 ///
@@ -69,7 +71,7 @@ pub(super) fn best(
             end(follow(seen.into()), &mut fits)?;
         }
         for seen in others {
-            if agreeing(&fits) < 2 {
+            if agreeing(model, &fits) < 2 {
                 end(follow(seen.into()), &mut fits)?;
             }
         }
@@ -78,20 +80,28 @@ pub(super) fn best(
             end(follow(start.into()), &mut fits)?;
         }
     }
-    let count = agreeing(&fits);
+    let count = agreeing(model, &fits);
     let best = fits
         .into_iter()
         .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     Ok((best.ok_or(LapError::NoEstimate)?, followed, count))
 }
 
-/// How many fits are as good as the best.
-fn agreeing(fits: &[Fit]) -> usize {
-    let chi_squared = fits.iter().map(|fit| fit.chi_squared);
-    let least = chi_squared.clone().fold(f64::INFINITY, f64::min);
-    let free = fits.first().map_or(1, |fit| fit.degrees_of_freedom.max(1));
-    let most = least * (1.0 + AGREES / free as f64) + 1e-9;
-    chi_squared.filter(|own| *own <= most).count()
+/// How many fits are where the best is, and as good.
+fn agreeing(model: &Model, fits: &[Fit]) -> usize {
+    let best = fits
+        .iter()
+        .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    let Some(best) = best else {
+        return 0;
+    };
+    let most = AGREES * AGREES * best.reduced_chi_squared().max(ROUNDING);
+    let agree = |fit: &&Fit| {
+        let change = model.change(&best.values, &fit.values);
+        let distance = change.dot(&(&best.information * &change));
+        fit.chi_squared <= best.chi_squared + most && distance <= most
+    };
+    fits.iter().filter(agree).count()
 }
 
 /// Fits a model to runs from the starts that the data suggest, free to be active. `known` holds the values of what is not among

@@ -45,17 +45,19 @@ impl fmt::Display for NoInterval {
             Self::Vanishes => {
                 f.write_str("the model's resonance vanishes within the errors of the unknowns")
             }
-            Self::TooFewRuns { fitted: 0, .. } => f.write_str(
-                "no fitted run has a resonance, so that nothing tells how runs scatter about the model; fit at least two",
+            Self::TooFewRuns { fitted, .. } if *fitted < 2 => write!(
+                f,
+                "{} fitted run has a resonance, so that nothing tells how runs scatter about the model; fit at least two",
+                if *fitted == 0 { "no" } else { "one" }
             ),
             Self::TooFewRuns { fitted, taken_up } => write!(
                 f,
                 "how runs scatter about the model is not told: the unknowns take up {taken_up:.1} of the {fitted} fitted run(s) with \
                  a resonance, and at least {FEWEST_FREE} must be left; fit more runs, or fewer terms"
             ),
-            Self::Undetermined => {
-                f.write_str("how runs scatter about the model is not told: its equations have no solution")
-            }
+            Self::Undetermined => f.write_str(
+                "how runs scatter about the model is not told: its equations have no solution",
+            ),
         }
     }
 }

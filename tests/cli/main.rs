@@ -20,6 +20,7 @@ mod export;
 mod identified;
 mod init;
 mod joint_file;
+mod lap_response;
 mod merge;
 mod modal_file;
 mod model_choice;

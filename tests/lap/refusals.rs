@@ -79,6 +79,24 @@ fn damaged_tables_are_refused_by_their_line() {
     }
 }
 
+/// Beyond critical damping nothing vibrates; per cent is the likely slip.
+#[test]
+fn damping_ratios_above_one_are_refused_by_their_line() {
+    let study = RESPONSE.replace("[[sine]]", "[[backbone]]");
+    let table = "frequency_hz,displacement_m,damping_ratio\n80,1e-5,0.01\n80,1e-4,1.2\n";
+    let error = refusal(&study, ("", ""), table);
+    has(
+        &error,
+        &[
+            "run.csv",
+            "line 3",
+            "a damping ratio of 1.2",
+            "below 1",
+            "0.02",
+        ],
+    );
+}
+
 #[test]
 fn damaged_response_studies_are_refused_by_their_key() {
     #[rustfmt::skip]

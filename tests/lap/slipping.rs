@@ -283,6 +283,57 @@ fn many_sliders_that_slip_through_are_known_by_all_four() {
     );
 }
 
+/// Where nothing slips through, the law's end and what depends on it are not told. All else is, as well as by the law without
+/// an end.
+#[test]
+fn what_no_slider_has_come_to_is_not_identified_and_all_else_is() {
+    let (density, exponent, span) = (1e7, -0.4, 2e-3_f64);
+    let small = density * span.powf(exponent + 1.0) / (exponent + 1.0);
+    // without noise: a law with an end explains noise of the last points by it
+    let folder = tempfile::tempdir().unwrap();
+    let mut csv = "frequency_hz,displacement_m,damping_ratio\n".to_owned();
+    for [amplitude, hz, ratio] in backbone(&iwan(density, exponent, span, 0.0), small) {
+        writeln!(csv, "{hz:e},{amplitude:e},{ratio:e}").unwrap();
+    }
+    std::fs::write(folder.path().join("backbone.csv"), csv).unwrap();
+    let of = |name: &str| {
+        let study = format!(
+            "method = \"lap-response\"\nname = \"x\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n\
+             terms = [\"{name}\"]\ncompare = false\n[known]\nm = {MASS}\n[noise]\nfrequency = {FREQUENCY}\n\
+             damping = {DAMPING}\n[[backbone]]\nfile = \"backbone.csv\"\n"
+        );
+        let path = folder.path().join("study.toml");
+        std::fs::write(&path, study).unwrap();
+        identified_of(&LapResponseStudy::read(&path).unwrap())
+    };
+    let ((of_small, _), (of_all, file)) = (of("micro-slip"), of("iwan"));
+    assert_eq!(of_all.not_identified(), ["F_S", "K_T", "β"]);
+    let uncertainty = file.uncertainty.unwrap();
+    assert_eq!(uncertainty.not_identified, ["F_S", "K_T", "β"]);
+    assert!(file.status.is_none(), "{:?}", file.status);
+    for unknown in [
+        ResponseUnknown::JointStiffness,
+        ResponseUnknown::JointDamping,
+        slider(SliderParameter::Exponent),
+    ] {
+        let [one, all] = [&of_small, &of_all].map(|found| {
+            let mut estimates = found.estimates.iter();
+            let own = estimates.find(|own| own.unknown == unknown).unwrap();
+            assert!(own.is_identified, "{own:?}");
+            (own.value, own.standard_deviation)
+        });
+        let name = unknown.symbol();
+        assert!(
+            (one.0 - all.0).abs() < 0.05 * one.1,
+            "{name}: {one:?} {all:?}"
+        );
+        assert!(
+            (all.1 / one.1 - 1.0).abs() < 0.05,
+            "{name}: {one:?} {all:?}"
+        );
+    }
+}
+
 /// A run that is left out is predicted, and said to be where the model does not fit it.
 #[test]
 fn a_backbone_left_out_is_compared() {

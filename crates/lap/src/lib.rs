@@ -15,8 +15,8 @@ pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
     AtLimit, BackboneLine, BackbonePrediction, BackboneRun, BetweenRuns, Estimate, Expected, Fall,
-    Fit, LapResponse, LapResponseStudy, Limit, Model, ModelComparison, Noise, NoiseIs, Place,
-    PointPrediction, Prediction, Resonance, ResonanceInterval, ResponseUnknown, RunScatter,
+    Fit, LapResponse, LapResponseStudy, Limit, Model, ModelComparison, NoInterval, Noise, NoiseIs,
+    Place, PointPrediction, Prediction, Resonance, ResonanceInterval, ResponseUnknown, RunScatter,
     SineLine, SineRun, Slider, SliderParameter, SliderValues, TermSet, Use, Values, fit_responses,
     measured_resonance, predicted_resonance,
 };

@@ -15,6 +15,13 @@ use super::study::Noise;
 use super::table::NumberTable;
 use crate::error::LapError;
 
+/// Damping ratio from which on nothing vibrates.
+const CRITICAL: f64 = 1.0;
+
+/// What a record of several modes should be instead.
+const ONE_MODE: &str =
+    "one mode alone; name the band that holds it and no other, such as band = [60, 100] in Hz";
+
 /// A backbone with its damping curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BackboneRun {
@@ -245,12 +252,18 @@ pub(super) fn read_backbone(path: &Path, share: f64) -> Result<Vec<BackboneLine>
         let frequency = positive(frequency, "frequency")?;
         let omega = if by == 0 { TAU * frequency } else { frequency };
         let response = positive(response, "response")?;
+        let below_critical = |place: usize| match positive(place, "damping ratio")? {
+            found if found < CRITICAL => Ok(found),
+            found => Err(table.problem(
+                *number,
+                format!("a damping ratio of {found}"),
+                "a part of the critical damping, below 1: 2 % is 0.02",
+            )),
+        };
         lines.push(BackboneLine {
             amplitude_m: response / omega.powi(order as i32) / share.abs(),
             omega,
-            damping_ratio: ratio
-                .map(|(place, _)| positive(place, "damping ratio"))
-                .transpose()?,
+            damping_ratio: ratio.map(|(place, _)| below_critical(place)).transpose()?,
             force_n: force
                 .map(|(place, _)| positive(place, "force"))
                 .transpose()?,
@@ -297,9 +310,32 @@ pub(super) fn read_decay(
                 let hz: Vec<String> = hz.iter().map(|hz| format!("{hz:.1} Hz")).collect();
                 (
                     format!("modes at {}", hz.join(", ")),
-                    "one mode alone; name the band that holds it and no other, such as band = [60, 100] in Hz",
+                    ONE_MODE,
                 )
             }
+            DecayProblem::Rises {
+                at_s,
+                times,
+                apart_hz,
+            } => (
+                format!(
+                    "an amplitude that rises {times:.2} times after {at_s:.3} s, as two modes make it that are {apart_hz:.1} Hz apart, \
+                     or another impact"
+                ),
+                "the free decay of one mode, behind the last impact; name the band that holds it and no other, such as \
+                 band = [60, 100] in Hz",
+            ),
+            DecayProblem::Leaves {
+                mode_hz,
+                other_hz,
+                part,
+            } => (
+                format!(
+                    "a mode at {mode_hz:.1} Hz, and beside it {:.0} % of its size, most at {other_hz:.1} Hz",
+                    100.0 * part
+                ),
+                ONE_MODE,
+            ),
             DecayProblem::TooShort(count) => (
                 format!("{count} stretch(es) of ten half-periods in the decay"),
                 "at least two: a longer record, with less noise, or a wider band",

@@ -47,6 +47,8 @@ pub(super) struct Candidate {
     /// The free one, where that is another and active.
     pub(super) free: Option<Fit>,
     pub(super) starts: (usize, usize),
+    /// Standard deviations by which it moved as decays were read the last time.
+    pub(super) unrest: f64,
     /// Highest harmonic of the relative motion in `fit`.
     pub(super) harmonics: usize,
     /// Backbones and decays as they were fitted.
@@ -172,6 +174,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
         };
         let moved = model.change(&before, &fit.values);
         let moved = moved.dot(&(&fit.information * &moved));
+        found.unrest = moved.max(0.0).sqrt();
         found.free = free.filter(|free| free.chi_squared < fit.chi_squared);
         found.fit = fit;
         found.backbones = read;
@@ -237,7 +240,7 @@ fn candidate(
         ..study.model(&terms)
     };
     let (noise, known) = (&study.noise, study.known_values());
-    let (mut fit, tried, agreeing) =
+    let (mut fit, followed, agreeing) =
         start::best(&model, runs, backbones, noise, &known, Kind::Passive)?;
     let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
     let mut own: Vec<BackboneRun> = backbones.iter().map(|run| (*run).clone()).collect();
@@ -278,7 +281,8 @@ fn candidate(
         bic: deviance(&fit, noise.is_stated) + unknowns as f64 * count.ln(),
         fit,
         free,
-        starts: (tried, agreeing),
+        starts: (followed, agreeing),
+        unrest: 0.0,
         backbones: own,
     })
 }

@@ -8,12 +8,12 @@ use nalgebra::DVector;
 use super::data::Use;
 use super::model::{ResponseUnknown, Values};
 use super::prediction::Expected;
-use super::result::LapResponse;
+use super::result::{Estimate, LapResponse};
 use super::study::{LapResponseStudy, NoiseIs};
 use super::warnings::NO_CURE;
 use bolted_joint_joint::{
     Bodies, Body, Correlation, DofSet, Format, FreeEstimate, Friction, FunctionResidual,
-    HigherTerms, Intervals, Joint, JointFile, NoiseRecord, Residual, StandardDeviation,
+    HigherTerms, Intervals, Joint, JointFile, NoiseRecord, Residual, StandardDeviation, Status,
     Uncertainty, Validity,
 };
 
@@ -49,7 +49,7 @@ impl LapResponse {
             about: None,
             format: Format::V1,
             name: self.name.clone(),
-            status: None,
+            status: Status::against(&self.reasons_against(study)),
             joint: Joint {
                 cubic: vec![values.term(Term::CUBIC)],
                 higher: has_higher.then_some(higher),
@@ -68,11 +68,14 @@ impl LapResponse {
     }
 
     fn uncertainty(&self, study: &LapResponseStudy) -> Option<Uncertainty> {
-        if self
-            .estimates
-            .iter()
-            .any(|estimate| !estimate.standard_deviation.is_finite())
-        {
+        let linear = [
+            ResponseUnknown::JointStiffness,
+            ResponseUnknown::JointDamping,
+        ];
+        let is_silent =
+            |own: &Estimate| linear.contains(&own.unknown) && !own.standard_deviation.is_finite();
+        let is_finite = self.covariance.iter().all(|entry| entry.is_finite());
+        if !is_finite || self.estimates.iter().any(is_silent) {
             return None;
         }
         let entry = |unknown| vec![vec![self.deviation(unknown)]];
@@ -92,14 +95,12 @@ impl LapResponse {
         let [low, high] = [-1.0, 1.0].map(|side| free + side * interval_of_stiffness);
         let ends = [low.min(stiffness), high.max(stiffness)];
         let size = self.estimates.len();
-        let deviation: Vec<f64> = self
-            .estimates
-            .iter()
-            .map(|estimate| estimate.standard_deviation)
-            .collect();
-        let correlation = |i: usize, j: usize| match i == j {
-            true => 1.0,
-            false => (self.covariance[(i, j)] / (deviation[i] * deviation[j])).clamp(-1.0, 1.0),
+        let deviation = self.covariance.diagonal().map(f64::sqrt);
+        let correlation = |i: usize, j: usize| match deviation[i] * deviation[j] {
+            _ if i == j => 1.0,
+            // taken as known where the data say nothing of it
+            0.0 => 0.0,
+            both => (self.covariance[(i, j)] / both).clamp(-1.0, 1.0),
         };
         let noise = match study.noise_is() {
             NoiseIs::Stated => "the stated noise",
@@ -115,13 +116,16 @@ impl LapResponse {
             false => String::new(),
         };
         let others = self.estimates.iter().map(|estimate| {
-            format!(
-                "{} = {:.4e} ± {:.1e} {}",
-                estimate.unknown.symbol(),
-                estimate.value,
-                estimate.standard_deviation,
-                estimate.unknown.unit()
-            )
+            let symbol = estimate.unknown.symbol();
+            match estimate.standard_deviation.is_finite() {
+                true => format!(
+                    "{symbol} = {:.4e} ± {:.1e} {}",
+                    estimate.value,
+                    estimate.standard_deviation,
+                    estimate.unknown.unit()
+                ),
+                false => format!("{symbol} = {:.4e}, not identified", estimate.value),
+            }
         });
         Some(Uncertainty {
             standard_deviation: StandardDeviation {

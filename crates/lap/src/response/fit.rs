@@ -8,7 +8,6 @@ mod found;
 use nalgebra::{DMatrix, DVector};
 
 use self::amplitude::{LONGEST, dot, settled, unit};
-use self::data::Start;
 use super::dynamic_stiffness::RelativeMotion;
 use super::model::{LineResidual, Model, Values};
 use super::passive::{Bound, Limit, Passive};
@@ -16,7 +15,7 @@ use super::step::damped_step;
 use super::study::Noise;
 use crate::error::LapError;
 
-pub(super) use self::data::Data;
+pub(super) use self::data::{Data, Start};
 pub use self::found::{AtLimit, Fit};
 
 const STEPS: usize = 200;

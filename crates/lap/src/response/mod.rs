@@ -15,6 +15,7 @@ mod fit;
 mod model;
 mod passive;
 mod prediction;
+mod reliability;
 mod result;
 mod slider;
 mod start;
@@ -22,6 +23,7 @@ mod step;
 mod study;
 mod table;
 mod terms;
+mod told;
 mod warnings;
 
 pub use backbone::{BackboneLine, BackboneRun};
@@ -31,8 +33,8 @@ pub use fit::{AtLimit, Fit};
 pub use model::{Model, ResponseUnknown, Values};
 pub use passive::Limit;
 pub use prediction::{
-    BackbonePrediction, BetweenRuns, Expected, Fall, PointPrediction, Prediction, Resonance,
-    ResonanceInterval, RunScatter, measured_resonance, predicted_resonance,
+    BackbonePrediction, BetweenRuns, Expected, Fall, NoInterval, PointPrediction, Prediction,
+    Resonance, ResonanceInterval, RunScatter, measured_resonance, predicted_resonance,
 };
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};

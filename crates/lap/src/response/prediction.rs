@@ -2,10 +2,10 @@
 
 mod between;
 mod curve;
+mod scatter;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bolted_joint_statistics::student_975;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
 
@@ -15,7 +15,10 @@ use super::model::{Model, Values};
 
 pub use self::between::{BetweenRuns, RunScatter};
 pub(super) use self::curve::Spread;
+use self::scatter::Scatter;
+
 pub use self::curve::{BackbonePrediction, Expected, Fall, PointPrediction};
+pub use self::scatter::NoInterval;
 
 const ITERATIONS: usize = 100;
 /// Step of the numerical derivatives and relative accuracy of the result.
@@ -44,8 +47,10 @@ pub struct Prediction {
     pub measured: Resonance,
     /// Of the model at the same force; `None` if it has none there.
     pub predicted: Option<Resonance>,
-    /// Within which a measurement is expected, with 95 %; `None` where too few runs were fitted to tell how they scatter.
+    /// Within which a measurement is expected, with 95 %.
     pub interval_95: Option<ResonanceInterval>,
+    /// Why there is no such interval.
+    pub no_interval: Option<NoInterval>,
     #[serde(skip)]
     gradients: Option<Gradients>,
 }
@@ -68,8 +73,6 @@ struct Gradients {
 
 /// Part of an unknown's standard deviation by which it is moved for a difference.
 const PART: f64 = 0.1;
-/// Fewest runs beyond what the unknowns take up that tell how runs scatter about the model.
-const FEWEST_FREE: f64 = 1.5;
 
 impl Prediction {
     /// Of all runs; `covariance` is that of the unknowns as they are searched.
@@ -84,7 +87,13 @@ impl Prediction {
         let mut all: Vec<Self> = runs
             .filter_map(|run| Self::of(model, &fit.values, run, &directions))
             .collect();
-        expect(&mut all);
+        let scatter = Scatter::of(&all);
+        for row in &mut all {
+            match row.expected(&scatter) {
+                Ok(interval) => row.interval_95 = Some(interval),
+                Err(reason) => row.no_interval = Some(reason),
+            }
+        }
         all
     }
 
@@ -104,7 +113,27 @@ impl Prediction {
             measured,
             predicted,
             interval_95: None,
+            no_interval: None,
             gradients,
+        })
+    }
+
+    /// Where a measurement of it is expected, by what the unknowns leave open and how runs scatter.
+    fn expected(
+        &self,
+        scatter: &Result<Scatter, NoInterval>,
+    ) -> Result<ResonanceInterval, NoInterval> {
+        let at = self.predicted.ok_or(NoInterval::NoResonance)?;
+        let own = self.gradients.as_ref().ok_or(NoInterval::Vanishes)?;
+        let [of_frequency, of_displacement] =
+            scatter.as_ref().map_err(|reason| *reason)?.halves(own);
+        let factor = of_displacement.exp();
+        Ok(ResonanceInterval {
+            frequency_hz: [
+                at.frequency_hz - of_frequency,
+                at.frequency_hz + of_frequency,
+            ],
+            displacement_m: [at.displacement_m / factor, at.displacement_m * factor],
         })
     }
 
@@ -163,82 +192,6 @@ fn gradients(
         by_unknown[1][place] = (found.displacement_m / predicted.displacement_m).ln() / PART;
     }
     Some(Gradients { by_unknown })
-}
-
-/// Where each run is expected. Runs differ from the model by more than the noise of their lines, and each as a whole: the error of
-/// a run is taken as one number in frequency and one in amplitude. With the gradients G of the fitted runs, in deviations s of
-/// these errors, a new run has the variance s² (1 + g (GᵀG)⁻¹ gᵀ), and s² = Σe²/(n − p) where p, the part of the errors that the
-/// unknowns take up, is the trace of G (GᵀG)⁻¹ Gᵀ over them.
-fn expect(all: &mut [Prediction]) {
-    let fitted: Vec<([f64; 2], &Gradients)> = all
-        .iter()
-        .filter(|row| !row.left_out)
-        .filter_map(|row| {
-            let relative = row.predicted?.displacement_m / row.measured.displacement_m;
-            Some((
-                [row.frequency_error_hz()?, relative.ln()],
-                row.gradients.as_ref()?,
-            ))
-        })
-        .collect();
-    let Some((_, first)) = fitted.first() else {
-        return;
-    };
-    let (count, unknowns) = (fitted.len() as f64, first.by_unknown[0].len());
-    let squares = [0, 1].map(|kind| {
-        let each = fitted.iter().map(|(errors, _)| errors[kind].powi(2));
-        each.sum::<f64>()
-    });
-    let mut taken_up = [0.0; 2];
-    let mut inverse = DMatrix::zeros(unknowns, unknowns);
-    let mut variances = [0.0; 2];
-    for _ in 0..ITERATIONS {
-        let free = taken_up.map(|taken_up| count - taken_up);
-        if free.iter().any(|&free| free < FEWEST_FREE) {
-            return;
-        }
-        variances = [0, 1].map(|kind| squares[kind] / free[kind]);
-        let mut normal = DMatrix::zeros(unknowns, unknowns);
-        for (_, gradients) in &fitted {
-            for (by, variance) in gradients.by_unknown.iter().zip(variances) {
-                normal.ger(1.0 / variance, by, by, 1.0);
-            }
-        }
-        let Ok(found) = normal.pseudo_inverse(ACCURACY) else {
-            return;
-        };
-        inverse = found;
-        let before = taken_up;
-        taken_up = [0, 1].map(|kind| {
-            let each = fitted.iter().map(|(_, gradients)| {
-                let by = &gradients.by_unknown[kind];
-                by.dot(&(&inverse * by)) / variances[kind]
-            });
-            each.sum()
-        });
-        let moves = (0..2).map(|kind| (taken_up[kind] - before[kind]).abs());
-        if moves.fold(0.0, f64::max) < 1e-3 {
-            break;
-        }
-    }
-    let quantiles = taken_up.map(|taken_up| student_975((count - taken_up).round() as usize));
-    for row in all {
-        let (Some(at), Some(own)) = (row.predicted, &row.gradients) else {
-            continue;
-        };
-        let [of_frequency, of_displacement] = [0, 1].map(|kind| {
-            let by = &own.by_unknown[kind];
-            quantiles[kind] * (variances[kind] + by.dot(&(&inverse * by))).sqrt()
-        });
-        let factor = of_displacement.exp();
-        row.interval_95 = Some(ResonanceInterval {
-            frequency_hz: [
-                at.frequency_hz - of_frequency,
-                at.frequency_hz + of_frequency,
-            ],
-            displacement_m: [at.displacement_m / factor, at.displacement_m * factor],
-        });
-    }
 }
 
 /// Where the measured phase passes −90°, by linear interpolation between the lines.

@@ -10,12 +10,12 @@ use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
-use super::prediction::{BackbonePrediction, BetweenRuns, Prediction, Spread};
+use super::prediction::{BackbonePrediction, BetweenRuns, NoInterval, Prediction, Spread};
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
+use super::told::{Searched, by_searched};
 use crate::error::LapError;
 use bolted_joint_identify::Watch;
-use bolted_joint_identify::unit_covariance;
 use bolted_joint_joint::Provenance;
 use bolted_joint_study::Method;
 
@@ -32,7 +32,7 @@ pub struct Estimate {
     pub value: f64,
     /// The value that it has where the joint is free to be active; the same where it need not be.
     pub free_value: f64,
-    /// One standard deviation, of the free estimate.
+    /// One standard deviation, of the free estimate; infinite where the data say nothing of it.
     pub standard_deviation: f64,
     /// Interval of 95 %: that of the free estimate, extended to the passive one where that lies beyond it.
     pub interval_95: [f64; 2],
@@ -55,7 +55,7 @@ pub struct LapResponse {
     pub price: f64,
     /// The unknowns.
     pub estimates: Vec<Estimate>,
-    /// Covariance of the unknowns.
+    /// Covariance of the unknowns, about those that the data say nothing of as if these were known.
     pub covariance: DMatrix<f64>,
     /// Half an interval of 95 % in standard deviations.
     pub(super) quantile: f64,
@@ -64,8 +64,10 @@ pub struct LapResponse {
     pub inflation: f64,
     /// Models beside each other.
     pub comparison: Vec<ModelComparison>,
-    /// Starts tried, and how many came to the same estimate.
+    /// Searches that were followed to their end, and how many came to the same estimate.
     pub starts: (usize, usize),
+    /// Standard deviations by which the estimate still moved as decays were read anew the last time.
+    pub(super) unrest: f64,
     /// Resonances of all runs, measured and of the model.
     pub predictions: Vec<Prediction>,
     /// Backbones and free decays beside the model's.
@@ -95,10 +97,9 @@ impl LapResponse {
         } else {
             reduced
         };
-        // The covariance of χ²'s information is its inverse; the function gives half of it.
-        let searched = |fit: &Fit| 2.0 * factor * unit_covariance(&fit.information);
+        let of_base = Searched::of(&model, base, factor);
         let by_searched = by_searched(&model, &base.values);
-        let covariance = &by_searched * searched(base) * by_searched.transpose();
+        let covariance = &by_searched * &of_base.covariance * by_searched.transpose();
         let amplitude_m = fit.amplitude_m;
         let quantile = if study.noise.is_stated {
             NORMAL_975
@@ -107,8 +108,13 @@ impl LapResponse {
         };
         let estimates = model.unknowns.iter().enumerate().map(|(place, &unknown)| {
             let (value, free_value) = (fit.values.of(unknown), base.values.of(unknown));
-            let deviation = covariance[(place, place)].sqrt();
+            let is_told = of_base.tells((place, unknown), &by_searched, free_value);
+            let deviation = match is_told {
+                true => covariance[(place, place)].sqrt(),
+                false => f64::INFINITY,
+            };
             let [low, high] = match unknown {
+                _ if !is_told => [f64::NEG_INFINITY, f64::INFINITY],
                 // positive by their nature, and searched as logarithms
                 ResponseUnknown::Slider(parameter) if parameter != SliderParameter::Exponent => {
                     let factor = (quantile * deviation / free_value).exp();
@@ -129,12 +135,13 @@ impl LapResponse {
             }
         });
         let estimates = estimates.collect();
+        let of_fit = Searched::of(&model, &fit, factor);
         let predictions = match model.sees_sum() {
             true => Vec::new(),
-            false => Prediction::of_all(&model, &fit, &study.sines, &searched(&fit)),
+            false => Prediction::of_all(&model, &fit, &study.sines, &of_fit.covariance),
         };
         let spread = Spread {
-            covariance: &searched(&fit),
+            covariance: &of_fit.covariance,
             noise: &study.noise,
             factor,
             quantile,
@@ -174,6 +181,7 @@ impl LapResponse {
             inflation: factor.sqrt(),
             comparison,
             starts: chosen.starts,
+            unrest: chosen.unrest,
             predictions,
             backbones: of_backbones,
             between_runs,
@@ -211,38 +219,36 @@ impl LapResponse {
         symbols.chain(never_told).collect()
     }
 
+    /// Why runs have no interval that their resonance is expected in, a sentence for each reason.
+    #[must_use]
+    pub fn without_interval(&self) -> Vec<String> {
+        let mut reasons: Vec<(NoInterval, Vec<&str>)> = Vec::new();
+        for row in &self.predictions {
+            let Some(reason) = row.no_interval else {
+                continue;
+            };
+            match reasons.iter_mut().find(|(own, _)| *own == reason) {
+                Some((_, runs)) => runs.push(&row.run),
+                None => reasons.push((reason, vec![&row.run])),
+            }
+        }
+        let all = self.predictions.len();
+        let told = reasons
+            .iter()
+            .map(|(reason, runs)| match runs.len() == all {
+                true => format!("No run has an interval: {reason}."),
+                false => format!("No interval for {}: {reason}.", runs.join(", ")),
+            });
+        told.collect()
+    }
+
     /// The standard deviation of an unknown; zero of what is known.
     #[must_use]
     pub fn deviation(&self, unknown: ResponseUnknown) -> f64 {
-        let mut estimates = self.estimates.iter();
-        let found = estimates.find(|estimate| estimate.unknown == unknown);
-        found.map_or(0.0, |estimate| estimate.standard_deviation)
+        let mut unknowns = self.model.unknowns.iter();
+        let place = unknowns.position(|own| *own == unknown);
+        place.map_or(0.0, |place| self.covariance[(place, place)].sqrt())
     }
-}
-
-/// Derivatives of the unknowns as they are told (rows) by those that are searched, which are logarithms of a law that slips.
-fn by_searched(model: &Model, values: &Values) -> DMatrix<f64> {
-    let size = model.unknowns.len();
-    let mut by = DMatrix::identity(size, size);
-    let Some(slider) = &values.slider else {
-        return by;
-    };
-    let own = slider.parameters();
-    let index = |unknown: &ResponseUnknown| match unknown {
-        ResponseUnknown::Slider(parameter) => slider.index(*parameter),
-        _ => None,
-    };
-    for (row, unknown) in model.unknowns.iter().enumerate() {
-        let Some(told) = index(unknown) else {
-            continue;
-        };
-        for (column, searched) in model.unknowns.iter().enumerate() {
-            if let Some(searched) = index(searched) {
-                by[(row, column)] = own[told].1[searched];
-            }
-        }
-    }
-    by
 }
 
 /// Known better than its own size, or so well that it has no visible effect if it is zero.
@@ -262,5 +268,10 @@ fn is_identified(
         }
         _ => 0.0,
     };
-    deviation <= values.of(unknown).abs().max(negligible)
+    let size = match unknown {
+        // from −1 on: zero is a value like others
+        ResponseUnknown::Slider(SliderParameter::Exponent) => values.of(unknown) + 1.0,
+        _ => values.of(unknown).abs(),
+    };
+    deviation <= size.max(negligible)
 }

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun};
-use super::fit::{Data, Fit, Kind, fit, glanced};
+use super::fit::{Data, Fit, Kind, Start, fit, glanced};
 use super::model::{Model, ResponseUnknown, Values};
 use super::slider::{Slider, SliderValues};
 use super::study::Noise;
@@ -20,8 +20,15 @@ const CUBIC_SHARE: f64 = 0.02;
 
 /// Starts that are followed to their end, if more are tried: those that are best after a few steps.
 const MOST_STARTS: usize = 4;
+/// Standard deviations within which two searches came to the same estimate: where a law has a corner each point of the data
+/// near it may make a minimum of its own.
+const AGREES: f64 = 2.0;
+/// χ² per degree of freedom below which there is rounding.
+const ROUNDING: f64 = 1e-6;
 
-/// Fits the model from all starts and keeps the best, with the number of starts and of those that came to it.
+/// Fits the model from all starts and keeps the best, with the number of those that were followed and of those that came to it.
+///
+/// Where one alone of the best starts came to its estimate, the others are followed as well.
 pub(super) fn best(
     model: &Model,
     runs: &[&SineRun],
@@ -42,36 +49,59 @@ pub(super) fn best(
     if let Some(slider) = model.terms.slider() {
         starts = with_slider(model, data, slider, &starts);
     }
-    let tried = starts.len();
-    let ended: Vec<Result<Fit, LapError>> = if tried > MOST_STARTS {
-        let glance = |start: &Values| glanced(model, data, noise, start, kind).ok();
-        let mut seen: Vec<Fit> = starts.iter().filter_map(glance).collect();
-        seen.retain(|fit| fit.chi_squared.is_finite());
-        seen.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-        let best = seen.iter().take(MOST_STARTS);
-        best.map(|seen| fit(model, data, noise, seen, kind))
-            .collect()
-    } else {
-        let starts = starts.iter();
-        starts
-            .map(|start| fit(model, data, noise, start, kind))
-            .collect()
-    };
-    let mut fits: Vec<Fit> = Vec::new();
-    for fit in ended {
-        match fit {
+    let follow = |start: Start<'_>| fit(model, data, noise, start, kind);
+    let mut fits = Vec::new();
+    let mut followed = 0;
+    let mut end = |ended: Result<Fit, LapError>, fits: &mut Vec<Fit>| {
+        followed += 1;
+        match ended {
             Ok(fit) if fit.values.mass > 0.0 => fits.push(fit),
             Err(error @ LapError::TooFewLines { .. }) => return Err(error),
             _ => {}
         }
-    }
-    fits.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-    let Some(best) = fits.first().cloned() else {
-        return Err(LapError::NoEstimate);
+        Ok(())
     };
-    let agree = |fit: &&Fit| fit.chi_squared <= best.chi_squared * (1.0 + 1e-6) + 1e-9;
-    let agreeing = fits.iter().filter(agree).count();
-    Ok((best, tried, agreeing))
+    if starts.len() > MOST_STARTS {
+        let glance = |start: &Values| glanced(model, data, noise, start, kind).ok();
+        let mut seen: Vec<Fit> = starts.iter().filter_map(glance).collect();
+        seen.retain(|fit| fit.chi_squared.is_finite());
+        seen.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+        let (best, others) = seen.split_at(seen.len().min(MOST_STARTS));
+        for seen in best {
+            end(follow(seen.into()), &mut fits)?;
+        }
+        for seen in others {
+            if agreeing(model, &fits) < 2 {
+                end(follow(seen.into()), &mut fits)?;
+            }
+        }
+    } else {
+        for start in &starts {
+            end(follow(start.into()), &mut fits)?;
+        }
+    }
+    let count = agreeing(model, &fits);
+    let best = fits
+        .into_iter()
+        .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    Ok((best.ok_or(LapError::NoEstimate)?, followed, count))
+}
+
+/// How many fits are where the best is, and as good.
+fn agreeing(model: &Model, fits: &[Fit]) -> usize {
+    let best = fits
+        .iter()
+        .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    let Some(best) = best else {
+        return 0;
+    };
+    let most = AGREES * AGREES * best.reduced_chi_squared().max(ROUNDING);
+    let agree = |fit: &&Fit| {
+        let change = model.change(&best.values, &fit.values);
+        let distance = change.dot(&(&best.information * &change));
+        fit.chi_squared <= best.chi_squared + most && distance <= most
+    };
+    fits.iter().filter(agree).count()
 }
 
 /// Fits a model to runs from the starts that the data suggest, free to be active. `known` holds the values of what is not among

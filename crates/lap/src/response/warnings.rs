@@ -147,7 +147,7 @@ impl LapResponse {
     }
 
     /// χ² per degree of freedom of the estimate that need not be passive: a joint that has to be may leave more.
-    fn free_chi_squared(&self) -> f64 {
+    pub(super) fn free_chi_squared(&self) -> f64 {
         let free = self.free.as_ref().unwrap_or(&self.fit);
         free.reduced_chi_squared()
     }

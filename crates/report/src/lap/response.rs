@@ -161,10 +161,13 @@ impl LapResponseReport<'_> {
             .concat()
         });
         let rows: Vec<String> = rows.collect();
+        let without = self.found.without_interval().into_iter();
+        let without = without.map(|reason| format!("<p>{}</p>\n", escaped(&reason)));
+        let without: String = without.collect();
         format!(
             "<h2>Resonances</h2>\n<p>Where the displacement lags the force by 90°: measured, and of the model at the force that was \
              measured there. Expected is what the unknowns’ deviations and the scatter of the fitted runs about the model leave open. \
-             The last column is the error of the acceleration’s amplitude.</p>\n{}{}",
+             The last column is the error of the acceleration’s amplitude.</p>\n{}{without}{}",
             table(
                 &columns(
                     "Run||Force, N|Measured, Hz|Model, Hz|Expected, 95 %|Error, Hz|Measured, µm|Model, µm|Expected, 95 %|Error"

@@ -24,6 +24,7 @@ pub(in super::super) fn run(
     let found = LapResponse::of(&study, &progress)?;
     drop(progress);
     let file = found.joint_file(&study);
+    let against = file.reasons_against();
     let mut warnings = found.warnings(&study);
     for matrix in file.passivity().active() {
         warnings.push(format!(
@@ -37,10 +38,13 @@ pub(in super::super) fn run(
         level_figure(&study, &found).unwrap_or_default()
     });
     if let Some(written) = written {
+        let against = against.iter();
+        let against = against.map(|reason| format!("not to be relied on: {reason}"));
+        let all: Vec<String> = against.chain(warnings.iter().cloned()).collect();
         let page = LapResponseReport {
             study: &study,
             found: &found,
-            warnings: &warnings,
+            warnings: &all,
             written,
         };
         files.add(arguments.report.as_ref(), || page.to_html());
@@ -71,11 +75,15 @@ pub(in super::super) fn run(
             "predictions": found.predictions,
             "backbones": found.backbones,
             "between_runs": found.between_runs,
+            "usable": against.is_empty(),
+            "reasons_against": against,
             "warnings": warnings,
         });
-        return print(&serde_json::to_string_pretty(&value)?);
+        print(&serde_json::to_string_pretty(&value)?)?;
+    } else {
+        print(&(summary(&found, &study) + &files.written()))?;
     }
-    print(&(summary(&found, &study) + &files.written()))
+    CliError::unless_usable(&arguments.output, against)
 }
 
 /// What is to be said of a model beside its numbers.
@@ -199,6 +207,9 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
             ]);
         }
         text += &table.render();
+        for reason in found.without_interval() {
+            let _ = writeln!(text, "{reason}");
+        }
     }
     if !found.backbones.is_empty() {
         text += &beside_backbones(found);

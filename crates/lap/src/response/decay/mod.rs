@@ -1,10 +1,11 @@
 //! Free decays of one mode: amplitude, frequency and damping over time, by complex demodulation.
 //!
 //! A record is multiplied by a rotating phasor and averaged under a Gaussian window. What is left is the mode's complex
-//! amplitude; its logarithm falls and turns as the mode decays and oscillates. Other modes are told from the spectrum:
-//! where one is in the way, the record is refused.
+//! amplitude; its logarithm falls and turns as the mode decays and oscillates. Other modes are told from the spectrum, from beats
+//! of the amplitude, and from what the signal leaves of the record: where one is in the way, the record is refused.
 
 mod errors;
+mod one_mode;
 mod simulated;
 mod spectrum;
 mod stretch;
@@ -13,6 +14,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex64;
 
+use self::one_mode::Signal;
 use self::spectrum::Spectrum;
 use self::stretch::{Part, Point, Stretch, covariance};
 use super::backbone::BackboneLine;
@@ -46,6 +48,18 @@ pub(super) enum DecayProblem {
     NoMode,
     /// Several modes, with their frequencies, Hz, the highest first.
     Several(Vec<f64>),
+    /// An amplitude that rises after this time to so many times of it, as two modes make it that are so far apart.
+    Rises {
+        at_s: f64,
+        times: f64,
+        apart_hz: f64,
+    },
+    /// What is in the record beside the mode: its strongest frequency, and its size as a part of the mode's.
+    Leaves {
+        mode_hz: f64,
+        other_hz: f64,
+        part: f64,
+    },
     /// So many points of a backbone.
     TooShort(usize),
 }
@@ -64,6 +78,25 @@ pub(super) fn backbone_of(
     let spectrum = Spectrum::of(&record);
     let mode_hz = spectrum.only_mode(band_hz)?;
     let stretches = record.tuned(mode_hz, band_hz, spectrum.noise);
+    let Stretches {
+        omega,
+        sigma_s,
+        of_noise,
+        ..
+    } = stretches;
+    let course: Vec<Point> = record.course(omega, sigma_s).collect();
+    let signal = |points| Signal {
+        points,
+        omega,
+        sigma_s,
+        of_noise,
+    };
+    signal(&course).falls()?;
+    if band_hz.is_none() {
+        let read = course.iter().take_while(|point| point.is_clear(of_noise));
+        let read = signal(&course[..read.count()]);
+        read.leaves_noise(&record, order, spectrum.noise)?;
+    }
     let lines = stretches.lines(order, share);
     if lines.len() < 2 {
         return Err(DecayProblem::TooShort(lines.len()));
@@ -132,22 +165,24 @@ impl Record {
 
     /// The mode's complex amplitudes at half-periods, as long as they are clear of noise and of other modes.
     fn points(&self, omega: f64, sigma_s: f64, of_noise: f64) -> Vec<Point> {
+        let all = self.course(omega, sigma_s);
+        all.take_while(|point| point.is_clear(of_noise)).collect()
+    }
+
+    /// The mode's complex amplitudes at all half-periods.
+    fn course(&self, omega: f64, sigma_s: f64) -> impl Iterator<Item = Point> {
         let half_period_s = 0.5 * TAU / omega;
         let reach_s = WINDOW * sigma_s;
         let duration_s = self.interval_s * (self.values.len() - 1) as f64;
         let count = ((duration_s - 2.0 * reach_s) / half_period_s).floor();
-        if count.is_nan() || count < HALF_PERIODS as f64 {
-            return Vec::new();
-        }
-        let is_clear =
-            |point: &Point| point.z.norm() > LEAST * of_noise.max(AT_THE_EDGE * point.largest);
-        (0..=count as usize)
-            .map(|index| {
-                let time_s = reach_s + half_period_s * index as f64;
-                self.demodulated(time_s, omega, sigma_s)
-            })
-            .take_while(is_clear)
-            .collect()
+        let count = match count >= HALF_PERIODS as f64 {
+            true => count as usize + 1,
+            false => 0,
+        };
+        (0..count).map(move |index| {
+            let time_s = reach_s + half_period_s * index as f64;
+            self.demodulated(time_s, omega, sigma_s)
+        })
     }
 
     /// 2 Σ x w e^{−jωt}/Σ w about a time, with a Gaussian w.

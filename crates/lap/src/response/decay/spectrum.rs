@@ -15,8 +15,10 @@ const VALLEY: f64 = 0.5;
 const ABOVE_NOISE: f64 = 6.0;
 /// How far noise alone may make a dip in the spectrum of one mode, in medians of the spectrum.
 const DIP: f64 = 2.0;
+/// Bins of a spectrum below which there is what a sensor drifts by.
+pub(super) const LOWEST: usize = 3;
 /// Multiples of the frequency belong to the mode itself, within this part of it.
-const HARMONIC: f64 = 0.05;
+pub(super) const HARMONIC: f64 = 0.05;
 
 /// Moduli of a record's spectrum under Hann's window.
 pub(super) struct Spectrum {
@@ -50,8 +52,8 @@ impl Spectrum {
     /// Frequency of the one mode in the band, Hz.
     pub(super) fn only_mode(&self, band_hz: Option<[f64; 2]>) -> Result<f64, DecayProblem> {
         let place = |hz: f64| ((hz / self.step_hz).round() as usize).min(self.moduli.len());
-        let [from, to] = band_hz.map_or([3, self.moduli.len()], |band| band.map(place));
-        let peaks = self.peaks(from.max(3), to);
+        let [from, to] = band_hz.map_or([LOWEST, self.moduli.len()], |band| band.map(place));
+        let peaks = self.peaks(from.max(LOWEST), to);
         let Some(&highest) = peaks.first() else {
             return Err(DecayProblem::NoMode);
         };

@@ -3,11 +3,20 @@
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use super::{AT_THE_EDGE, LEAST};
+
 /// A mode's complex amplitude at one time, and the largest sample about it.
 pub(super) struct Point {
     pub(super) time_s: f64,
     pub(super) z: Complex64,
     pub(super) largest: f64,
+}
+
+impl Point {
+    /// Whether it stands clear of noise and of other modes.
+    pub(super) fn is_clear(&self, of_noise: f64) -> bool {
+        self.z.norm() > LEAST * of_noise.max(AT_THE_EDGE * self.largest)
+    }
 }
 
 /// Ten half-periods: amplitude, by how much the mode turns faster than the phasor (rad/s), and how it decays (1/s).

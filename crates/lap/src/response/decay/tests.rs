@@ -95,6 +95,56 @@ fn two_modes_are_told_and_a_band_takes_one_of_them() {
     assert!(none.is_err());
 }
 
+/// A second mode that fades early is hardly in the spectrum of the whole record: it makes beats, or stays beside the signal.
+#[test]
+fn a_second_mode_is_told_however_it_fades() {
+    #[rustfmt::skip]
+    let others = [
+        (1e-4, 0.01, 90.0), (5e-5, 0.001, 81.5), (5e-5, 0.001, 300.0), (5e-5, 0.005, 300.0),
+        (5e-5, 0.001, 120.0), (5e-5, 0.01, 120.0), (5e-5, 0.001, 160.0), (5e-5, 0.005, 160.0), (1e-4, 0.005, 30.0),
+    ];
+    for other in others {
+        let samples = decaying(&[(1e-4, 0.001, 80.0), other], 10_000, 2e-4);
+        let found = lines_of(&samples, None, 0, 1.0);
+        let is_refused = match found {
+            Err(DecayProblem::Several(modes)) => modes.iter().any(|hz| (hz - other.2).abs() < 1.0),
+            Err(DecayProblem::Rises { apart_hz, .. }) => {
+                (apart_hz / (other.2 - 80.0) - 1.0).abs() < 0.3
+            }
+            Err(DecayProblem::Leaves { other_hz, .. }) => (other_hz - other.2).abs() < 2.0,
+            _ => false,
+        };
+        assert!(is_refused, "{other:?}");
+    }
+}
+
+/// What a joint makes of its own motion: a third harmonic that fades three times as fast, more of it in the acceleration.
+#[test]
+fn a_harmonic_is_no_second_mode() {
+    let modes = [(1e-4, 0.004, 80.0), (2e-6, 0.004, 240.0)];
+    let samples = decaying(&modes, 10_000, 2e-4);
+    assert!(lines_of(&samples, None, 0, 1.0).is_ok());
+    let modes = [(1.0, 0.004, 80.0), (0.2, 0.004, 240.0)];
+    let samples = decaying(&modes, 10_000, 2e-4);
+    assert!(lines_of(&samples, None, 2, 1.0).is_ok());
+    assert!(lines_of(&samples, None, 0, 1.0).is_err());
+}
+
+/// A record that begins before the impact, or has a second one.
+#[test]
+fn a_second_impact_is_told() {
+    let mut samples = decaying(&[(1e-4, 0.004, 80.0)], 10_000, 2e-4);
+    let first = samples.clone();
+    for (own, other) in samples[4000..].iter_mut().zip(&first) {
+        own.1 += other.1;
+    }
+    let found = lines_of(&samples, None, 0, 1.0);
+    assert!(
+        matches!(found, Err(DecayProblem::Rises { at_s, .. }) if (at_s - 0.8).abs() < 0.1),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn what_is_no_decay_is_refused() {
     let samples = decaying(&[(2e-4, 0.004, 81.2)], 20_000, 1e-4);

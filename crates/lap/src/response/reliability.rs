@@ -1,0 +1,148 @@
+//! Whether a lap model may be relied on at all: whether the search came to an end, whether the data determine the joint's
+//! stiffness, and whether the law has anything to do with what was measured. What is merely worse than it could be is warned of
+//! instead.
+
+use num_complex::Complex64;
+
+use super::model::ResponseUnknown;
+use super::prediction::Expected;
+use super::result::LapResponse;
+use super::study::{LapResponseStudy, NoiseIs};
+
+/// Standard deviations that the estimate may still move when the search ends: added to its error, √(1 + 0.3²), they widen it
+/// by less than a twentieth.
+const TOLERABLE_UNREST: f64 = 0.3;
+/// χ² per degree of freedom below which a residual is rounding.
+const ROUNDING: f64 = 1e-12;
+/// χ² per degree of freedom beyond which the residual, ten times the stated noise, is another thing than noise.
+const ABSURD: f64 = 100.0;
+/// χ² per degree of freedom up to which known noise accounts for a residual, however large.
+const NOISE: f64 = 1.5;
+/// Relative differences that half of the values must stay below: of receptances and damping ratios, and of frequencies.
+const MISFIT: f64 = 0.5;
+const MISFIT_OF_FREQUENCIES: f64 = 0.05;
+/// Searches beside which one alone that came to its estimate says nothing of whether there is a better one.
+const FEW_STARTS: usize = 3;
+
+impl LapResponse {
+    /// What speaks against the estimate, a line each; empty if nothing does.
+    #[must_use]
+    pub fn reasons_against(&self, study: &LapResponseStudy) -> Vec<String> {
+        let mut reasons = Vec::new();
+        reasons.extend(self.because_of_the_search());
+        reasons.extend(self.because_nothing_is_told());
+        reasons.extend(self.because_of_the_noise(study));
+        reasons.extend(self.because_of_misfit(study));
+        reasons
+    }
+
+    fn because_of_the_search(&self) -> Option<String> {
+        // χ² falls by the square of the deviations that the estimate still moves by
+        let noise = (self.inflation * self.inflation).max(ROUNDING);
+        let steps = (self.fit.left.max(0.0) / noise).sqrt();
+        let left = steps.max(self.unrest);
+        if left > TOLERABLE_UNREST {
+            return Some(format!(
+                "the search for the estimate has not converged: it still moved by {left:.1} standard deviations"
+            ));
+        }
+        let (followed, agreeing) = self.starts;
+        (followed >= FEW_STARTS && agreeing < 2).then(|| {
+            format!(
+                "{agreeing} of {followed} searches came to this estimate, the others to worse ones: there may be a better one; take \
+                 fewer terms, or state what is known in [known]"
+            )
+        })
+    }
+
+    fn because_nothing_is_told(&self) -> Option<String> {
+        let is_open = |unknown: ResponseUnknown| {
+            let mut estimates = self.estimates.iter();
+            estimates.any(|own| own.unknown == unknown && !own.is_identified)
+        };
+        let all_open = self.estimates.iter().all(|own| !own.is_identified);
+        let of_mass = match is_open(ResponseUnknown::Mass) {
+            true => ": nothing tells the mass; state m in [known], or give the forces",
+            false => "",
+        };
+        if !self.estimates.is_empty() && all_open {
+            return Some(format!("the data determine none of the unknowns{of_mass}"));
+        }
+        let joint = ResponseUnknown::JointStiffness;
+        is_open(joint).then(|| format!("the data do not determine {}{of_mass}", joint.symbol()))
+    }
+
+    fn because_of_the_noise(&self, study: &LapResponseStudy) -> Option<String> {
+        let reduced = self.free_chi_squared();
+        let is_absurd = study.noise_is() == NoiseIs::Stated && reduced > ABSURD;
+        is_absurd.then(|| {
+            format!(
+                "the residual is {:.0} times the stated noise: the law \"{}\" is not that of the data, or the noise is larger than \
+                 [noise] states",
+                reduced.sqrt(),
+                self.model.terms
+            )
+        })
+    }
+
+    fn because_of_misfit(&self, study: &LapResponseStudy) -> Option<String> {
+        if study.knows_noise() && self.free_chi_squared() <= NOISE {
+            return None;
+        }
+        let of_curves = |of: &dyn Fn(&[super::PointPrediction]) -> Vec<Expected>| {
+            let fitted = self.backbones.iter().filter(|run| !run.left_out);
+            let all = fitted.flat_map(|run| of(&run.points));
+            median(all.map(|own| (own.measured / own.predicted - 1.0).abs()))
+        };
+        let frequencies =
+            of_curves(&|points| points.iter().map(|point| point.frequency_hz).collect());
+        let ratios = of_curves(&|points| {
+            let ratios = points.iter().filter_map(|point| point.damping_ratio);
+            ratios.collect()
+        });
+        let kinds = [
+            ("receptances", self.receptance_misfit(study), MISFIT),
+            ("frequencies", frequencies, MISFIT_OF_FREQUENCIES),
+            ("damping ratios", ratios, MISFIT),
+        ];
+        let mut kinds = kinds.into_iter();
+        let (what, off) =
+            kinds.find_map(|(what, off, most)| Some((what, off.filter(|off| *off > most)?)))?;
+        Some(format!(
+            "half of the {what} are more than {:.0} % off the model: the study does not describe what was measured (units, phases, \
+             places), or the law \"{}\" has nothing to do with it",
+            100.0 * off,
+            self.model.terms
+        ))
+    }
+
+    /// Median of |measured − computed|/max(|measured|, |computed|) over the lines of all sines that were fitted.
+    fn receptance_misfit(&self, study: &LapResponseStudy) -> Option<f64> {
+        let fitted = study
+            .sines
+            .iter()
+            .filter(|run| run.used_for == super::Use::Fit);
+        let lines = fitted.flat_map(|run| &run.lines);
+        let values = lines
+            .zip(&self.fit.amplitudes_m)
+            .map(|(line, &amplitude_m)| {
+                let (computed, _) =
+                    self.model
+                        .receptance(&self.fit.values, amplitude_m, line.omega);
+                let measured =
+                    Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
+                (measured - computed).norm() / measured.norm().max(computed.norm())
+            });
+        median(values)
+    }
+}
+
+/// The middle one of finite values.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    if values.is_empty() {
+        return None;
+    }
+    let middle = values.len() / 2;
+    Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}

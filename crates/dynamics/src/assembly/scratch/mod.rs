@@ -1,7 +1,11 @@
 //! One part of a step: the joints' forces at its nodes, the motion that they lead to, and the work that is done.
 
+mod creep;
+mod events;
+mod trail;
+
 use super::{
-    coordinates::{Parts, Sight},
+    coordinates::Sight,
     ladder::Rung,
     lobatto::{NODES, THETA, WEIGHTS, legendre_coefficients, powers},
     matrix::dot,
@@ -11,7 +15,7 @@ use super::{
     state::Underway,
     system::System,
 };
-use crate::law::{Corner, DOF_AT_REST, DofLaws, DofMemory};
+use trail::Trail;
 
 /// Sweeps over the nodes for the joints' forces, at most; five to eight are usual.
 const MOST_SWEEPS: usize = 24;
@@ -67,43 +71,6 @@ pub(super) struct Scratch {
     changes: Vec<f64>,
     /// Corners of a law at the beginning.
     corners: Vec<f64>,
-}
-
-/// A law that knows time, node by node: it takes the mean velocity on its way, so that it errs with the square of the way's length.
-#[derive(Clone, Copy, Debug)]
-struct Trail {
-    memory: [DofMemory; NODES],
-    /// Heat on the way to each node, J.
-    heat_j: [f64; NODES],
-}
-
-impl Trail {
-    const AT_REST: Self = Self {
-        memory: [DOF_AT_REST; NODES],
-        heat_j: [0.0; NODES],
-    };
-
-    /// Goes on to the node `to` at (r, ṙ); what the load there is more than that on one way from the first node.
-    fn go_on(&mut self, laws: &DofLaws, to: usize, [r, velocity]: [f64; 2]) -> f64 {
-        let (earlier, later) = self.memory.split_at_mut(to);
-        let (Some(first), Some(last)) = (earlier.first(), earlier.last()) else {
-            return 0.0;
-        };
-        let more = laws.load(last, r, velocity) - laws.load(first, r, velocity);
-        laws.copy_memory(last, &mut later[0]);
-        self.heat_j[to] = laws.commit(&mut later[0], r, velocity);
-        more
-    }
-
-    /// What the load at the end is other than on a way with one stop in the middle, about half of which is what it errs by: the
-    /// cubes of the ways between the nodes come to a third of those of two halves.
-    fn error(&self, laws: &DofLaws, middle: [f64; 2], [r, velocity]: [f64; 2]) -> f64 {
-        let [first, .., last, _] = &self.memory;
-        let mut memory = DOF_AT_REST;
-        laws.copy_memory(first, &mut memory);
-        laws.commit(&mut memory, middle[0], middle[1]);
-        0.5 * (laws.load(last, r, velocity) - laws.load(&memory, r, velocity)).abs()
-    }
 }
 
 /// The laws at the nodes: those that follow a preload, or those that never change.
@@ -171,33 +138,6 @@ impl Scratch {
             if laws.have_memory() {
                 state.balance_j += laws.commit(memory, r[i], velocity[i]);
             }
-        }
-    }
-
-    /// z + δ ż under the present loads. Friction that moves on the way counts its heat in the step that follows.
-    pub(super) fn creep(&mut self, parts: &Parts, state: &mut Underway, rest_s: f64) {
-        let (system, sight) = (&parts.system, &parts.sight);
-        let (m, d) = (system.loads, system.forces());
-        self.follow(system);
-        let laws = self.laws.first().unwrap_or(&system.laws);
-        let [now, ..] = &mut self.relative;
-        sight.relative(&state.motion, now);
-        let [acting, ..] = &mut self.powers;
-        acting[..m].copy_from_slice(&self.loads[0][..m]);
-        laws.forces(system, &state.memory, now, &mut acting[m..]);
-        let (r, velocity) = now.split_at(d);
-        let supplied: f64 = (0..m)
-            .map(|load| acting[load] * dot(sight.velocities.row(load), &state.motion))
-            .sum();
-        let into_laws = dot(&acting[m..], velocity);
-        let heat = laws.viscous_power(system, r, velocity);
-        state.supplied_j += rest_s * supplied;
-        state.balance_j += rest_s * (supplied - into_laws + heat);
-        let rates = &mut self.state.motion;
-        parts.rates(&state.motion, rates);
-        parts.acting.add_rows_to(acting, rates);
-        for (own, rate) in state.motion.iter_mut().zip(rates) {
-            *own += rest_s * *rate;
         }
     }
 
@@ -466,62 +406,6 @@ impl Scratch {
             dot(whole.moments[moment].row(p), motion) + forced
         })
     }
-
-    /// Whether within the step that was found a law that remembers turns or passes a corner of its load.
-    pub(super) fn has_event(&mut self, means: Means<'_>, before: &Underway) -> bool {
-        let Means { system, rung, .. } = means;
-        (0..system.forces()).any(|i| self.has_event_on(system, rung.length_s, before, i))
-    }
-
-    fn has_event_on(
-        &mut self,
-        system: &System,
-        length_s: f64,
-        before: &Underway,
-        i: usize,
-    ) -> bool {
-        let [at_begin, .., at_end] = at_nodes(system, &self.laws);
-        if !at_end.on[i].have_memory() {
-            return false;
-        }
-        let d = system.forces();
-        if self
-            .relative
-            .windows(2)
-            .any(|pair| pair[0][d + i] * pair[1][d + i] < 0.0)
-        {
-            return true;
-        }
-        let [begin, .., end] = &self.relative;
-        self.corners.clear();
-        if !self.laws.is_empty() {
-            at_begin.on[i].corners(&before.memory[i], end[i], &mut |corner| {
-                if let Corner::Sharp(place) = corner {
-                    self.corners.push(place);
-                }
-            });
-        }
-        let mut passes = false;
-        let mut first = self.corners.iter();
-        at_end.on[i].corners(&before.memory[i], end[i], &mut |corner| {
-            if let Corner::Sharp(place) = corner {
-                passes |= is_between(begin[i], place, end[i]);
-                // with the preload a corner moves: what slides is on it, and sticks where the motion falls behind
-                if let Some(&was) = first.next() {
-                    let rate = (place - was) / length_s;
-                    passes |= (was - begin[i]) * (end[i] - place) > 0.0;
-                    passes |= (begin[d + i] - rate) * (end[d + i] - rate) < 0.0;
-                }
-            }
-        });
-        passes
-    }
-}
-
-/// Whether a place is between two others, by more than rounding: what slides is on its corner.
-fn is_between(begin: f64, place: f64, end: f64) -> bool {
-    let rounding = 8.0 * f64::EPSILON * place.abs().max(begin.abs());
-    (place - begin).abs() > rounding && (place - begin) * (end - place) > 0.0
 }
 
 fn is_there(x: &[f64]) -> bool {

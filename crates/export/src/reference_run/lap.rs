@@ -241,12 +241,15 @@ impl Plan {
     fn levels<const D: usize>(&self, system: &System<'_, D>) -> Option<Vec<LapLoads<D>>> {
         let joint = &system.lap.joint;
         let wanted = stimulus::relative_motion(joint, system.dofs);
-        let mut amplitude: [f64; D] = std::array::from_fn(|i| {
+        let amplitude: [f64; D] = std::array::from_fn(|i| {
             let load = FIRST_PART * joint.linear.stiffness[i][i] * wanted[i];
             if load > 0.0 { load } else { wanted[i] }
         });
+        // friction that begins to slip opens the joint all at once: between loads that open it too little and too far the next
+        // ones lie between these
+        let (mut scale, mut below, mut above) = (1.0, 0.0, f64::INFINITY);
         for _ in 0..SCALINGS {
-            let levels = levels_of(&amplitude);
+            let levels = levels_of(&amplitude.map(|load| scale * load));
             let opening = self
                 .states(system, &levels, NonZeroU32::MIN)
                 .map(|states| opening(&states, &wanted));
@@ -256,7 +259,17 @@ impl Plan {
                 Some(_) => return None,
                 None => 0.1,
             };
-            amplitude = amplitude.map(|load| factor * load);
+            if factor > 1.0 {
+                below = scale;
+            } else {
+                above = scale;
+            }
+            let next = scale * factor;
+            scale = if (below..=above).contains(&next) {
+                next
+            } else {
+                (below * above).sqrt()
+            };
         }
         None
     }

@@ -43,6 +43,8 @@ fn a_study_is_made_of_the_files_that_are_there() {
             "frf = \"joined.uff\"",
             "points = [\"11:+Y\", \"12:+Y\", \"13:+Y\"]",
             "points: 1:+Y 2:+Y 3:+Y",
+            // no rotation of b was measured
+            "model = \"translation\"",
         ],
     );
     // it is a study that every command understands

@@ -212,8 +212,8 @@ fn every_kind_of_file_is_described() {
         ("j.fmu", &["FMU of this program", "linux", "k_yy = 80000 N/m", "bolted-joint check j.fmu"]),
         ("beams.fmu", &["FMU of a whole assembly", "linux", "1 load", "coordinates of the structures", "bolted-joint check beams.fmu"]),
         ("ball.fmu", &["FMU of another tool", "Bouncing Ball", "a tool of theirs", "FMI 2.0, Co-Simulation", "push", "height"]),
-        ("plan.toml", &["frf-space", "next", "bolted-joint respond plan.toml --plan"]),
-        ("known.toml", &["frf-space", "bolted-joint respond known.toml -o NAME.csv"]),
+        ("plan.toml", &["frf-space", "next", "bolted-joint respond plan.toml --plan --step HZ"]),
+        ("known.toml", &["frf-space", "bolted-joint respond known.toml -o NAME.csv --step HZ"]),
     ];
     for (file, fragments) in cases {
         let text = bench.done(&format!("show {file}")).stdout;

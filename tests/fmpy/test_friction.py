@@ -356,4 +356,5 @@ def test_the_program_s_own_check_finds_nothing(export, run, interface, fmi, laws
     if interface == "lap":
         sides = body([1.41, 0.01], [8.24e5, 100.0], [0.78, 0.01])
         file["bodies"] = {"a": sides, "b": sides}
-    run("check", export(file, interface, fmi=fmi))
+    told = run("check", export(file, interface, fmi=fmi)).stdout
+    assert "reference run: met" in told, told

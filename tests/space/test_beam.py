@@ -110,6 +110,8 @@ length = 0.03
     [
         ("height_along = [0, 0, 1]", "height_along = [1, 0, 0]", ["beam.height_along", "across"]),
         ("width = 0.02", "width = -0.02", ["beam.width", "-0.02", "positive"]),
+        ("width = 0.02", "width = 20", ["beam.width", "found 20", "millimetres?"]),
+        ("youngs_modulus = 7e10", "youngs_modulus = 70", ["beam.youngs_modulus", "found 70", "GPa"]),
         ("interface = 20", "interface = 22", ["b.interface", "22:+X"]),
         ('[b.beam]', 'frf = "a.npz"\n[b.beam]', ["`b`", "several of frf, modal and beam"]),
         ("damping_ratio = 0.002", "damping_ratio = 2", ["damping_ratio", "2"]),

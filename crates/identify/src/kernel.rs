@@ -145,11 +145,21 @@ pub(super) fn coupled<const N: usize, T: Number>(
     free: &Small<N, T>,
     stiffness: &Small<N, T>,
 ) -> Option<Small<N, T>> {
-    let mut loop_gain = product(dofs, free, stiffness);
-    for (i, row) in loop_gain.iter_mut().enumerate() {
+    inverse(dofs, closed_loop(dofs, free, stiffness))
+}
+
+/// I + F K*
+#[inline(always)]
+pub(super) fn closed_loop<const N: usize, T: Number>(
+    dofs: usize,
+    free: &Small<N, T>,
+    stiffness: &Small<N, T>,
+) -> Small<N, T> {
+    let mut closed = product(dofs, free, stiffness);
+    for (i, row) in closed.iter_mut().enumerate() {
         row[i] += T::ONE;
     }
-    inverse(dofs, loop_gain)
+    closed
 }
 
 /// pᵀ E q, E having ones at (i, j) and (j, i).

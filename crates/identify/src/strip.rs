@@ -58,6 +58,27 @@ pub(super) struct Coupled<const N: usize> {
     pub(super) stiffness: Small<N, Complexes>,
 }
 
+/// K* = K + jωC of lines side by side, from the unknowns of one joint.
+#[inline(always)]
+pub(super) fn complex_stiffness<const N: usize>(
+    entries: &[Place],
+    unknowns: &[f64],
+    omega: Reals,
+) -> Small<N, Complexes> {
+    let mut stiffness = [[Complexes::ZERO; N]; N];
+    for (t, place) in entries.iter().enumerate() {
+        let value = Complexes {
+            re: Reals::all(unknowns[t]),
+            im: omega * Reals::all(unknowns[entries.len() + t]),
+        };
+        for (i, j) in place.all() {
+            stiffness[i][j] = value;
+            stiffness[j][i] = value;
+        }
+    }
+    stiffness
+}
+
 impl<'b, const N: usize> Strip<'b, N> {
     pub(super) fn new(block: &'b Block) -> Self {
         let columns = || vec![[Complexes::ZERO; N]; block.points];
@@ -140,18 +161,7 @@ impl<'b, const N: usize> Strip<'b, N> {
         entries: &[Place],
         unknowns: &[f64],
     ) -> Small<N, Complexes> {
-        let mut stiffness = [[Complexes::ZERO; N]; N];
-        for (t, place) in entries.iter().enumerate() {
-            let value = Complexes {
-                re: Reals::all(unknowns[t]),
-                im: self.omega * Reals::all(unknowns[entries.len() + t]),
-            };
-            for (i, j) in place.all() {
-                stiffness[i][j] = value;
-                stiffness[j][i] = value;
-            }
-        }
-        stiffness
+        complex_stiffness(entries, unknowns, self.omega)
     }
 
     /// A number of each line that is stored line by line and entry by entry.

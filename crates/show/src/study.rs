@@ -52,7 +52,7 @@ pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
     shown.detail("files", names.collect::<Vec<_>>());
     let next = Next::of(method, &tables);
     shown.detail("command", next.command(method));
-    shown.next = next.line(method, text);
+    shown.next = next.line(method, text, has_lines(&tables));
     Ok(shown)
 }
 
@@ -96,14 +96,25 @@ impl Next {
         }
     }
 
-    fn line(self, method: Method, text: &StudyText) -> Option<String> {
+    /// The command as one types it. What is computed alone has no lines of its own.
+    fn line(self, method: Method, text: &StudyText, has_lines: bool) -> Option<String> {
         let path = text.path();
+        let step = if has_lines { "" } else { " --step HZ" };
         match self {
             Self::Method => command_for(FileKind::Study(Some(method)), path),
-            Self::Functions => command_for(FileKind::Study(Some(Method::Respond)), path),
-            Self::Plan => Some(format!("bolted-joint respond {} --plan", path.display())),
+            Self::Functions => command_for(FileKind::Study(Some(Method::Respond)), path)
+                .map(|command| command + step),
+            Self::Plan => Some(format!(
+                "bolted-joint respond {} --plan{step}",
+                path.display()
+            )),
         }
     }
+}
+
+/// Whether a file of functions is named, whose lines a study in space has.
+fn has_lines(tables: &Table) -> bool {
+    tables.values().any(|table| table.get("frf").is_some())
 }
 
 /// Takes a value apart: names of files, and lines such as `a.beam.length = 0.3`.

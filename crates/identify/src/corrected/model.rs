@@ -4,6 +4,7 @@ use super::super::factored::Factored;
 use super::super::kernel::{dot, filled, through, times};
 use super::super::lanes::{Complexes, Number, Reals};
 use super::super::motions::{Act, Action, Moved};
+use super::super::strip::complex_stiffness;
 use super::Piece;
 use super::lines::{CORRECTED, Corrected, MEASURED, Member};
 
@@ -47,18 +48,7 @@ impl<const N: usize> Corrected<'_, N> {
         for (block, member) in group.blocks.iter().zip(&mut self.members) {
             let own = &self.piece.unknowns[block.unknowns(entries)];
             let dofs = filled::<N>(block.dofs);
-            let mut stiffness = [[Complexes::ZERO; N]; N];
-            for (t, place) in entries.iter().enumerate() {
-                // K* = K + jωC
-                let value = Complexes {
-                    re: Reals::all(own[t]),
-                    im: self.omega * Reals::all(own[entries.len() + t]),
-                };
-                for (i, j) in place.all() {
-                    stiffness[i][j] = value;
-                    stiffness[j][i] = value;
-                }
-            }
+            let stiffness = complex_stiffness(entries, own, self.omega);
             let factored = Factored::of(dofs, &member.free[CORRECTED], &stiffness)?;
             let transfer = &member.transfer[CORRECTED];
             for ((q, x), column) in member.q.iter_mut().zip(&mut member.x).zip(transfer) {

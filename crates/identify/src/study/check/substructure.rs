@@ -16,7 +16,7 @@ use super::rotation::rotation;
 use super::stated::{not_negative, without_deviation};
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Beam, Damping, Difference, Section, Theory};
-use bolted_joint_study::{Stated, StudyError, StudyText};
+use bolted_joint_study::{BeamNumber, Stated, StudyError, StudyText};
 
 /// More than that is no bolt, and a slip of the unit.
 const MOST_MASS_KG: f64 = 100.0;
@@ -384,48 +384,15 @@ fn theory(study: &StudyText, key: &str, table: &BeamTable) -> Result<Theory, Stu
     }
 }
 
-/// Refuses numbers that no joint's test has, and names the slip that they look like. What is no number at all is left to the
-/// beam's own check.
 fn plausible(study: &StudyText, key: &str, table: &BeamTable) -> Result<(), StudyError> {
-    for (name, found, [least, most], expected) in [
-        (
-            "length",
-            table.length.value,
-            [1e-3, 20.0],
-            "a length in m, from 0.001 to 20 (is it in millimetres?)",
-        ),
-        (
-            "width",
-            table.width.value,
-            [1e-4, 2.0],
-            "a width in m, from 0.0001 to 2 (is it in millimetres?)",
-        ),
-        (
-            "height",
-            table.height.value,
-            [1e-4, 2.0],
-            "a height in m, from 0.0001 to 2 (is it in millimetres?)",
-        ),
-        (
-            "youngs_modulus",
-            table.youngs_modulus.value,
-            [1e8, 2e12],
-            "Young's modulus in Pa, from 1e8 to 2e12 (is it in GPa or MPa?)",
-        ),
-        (
-            "density",
-            table.density.value,
-            [50.0, 30e3],
-            "a density in kg/m³, from 50 to 30000 (is it in g/cm³ or t/mm³?)",
-        ),
+    for (number, found) in [
+        (BeamNumber::Length, table.length.value),
+        (BeamNumber::Width, table.width.value),
+        (BeamNumber::Height, table.height.value),
+        (BeamNumber::YoungsModulus, table.youngs_modulus.value),
+        (BeamNumber::Density, table.density.value),
     ] {
-        let is_plausible = (least..=most).contains(&found) || !found.is_finite() || found <= 0.0;
-        study.ensure(
-            is_plausible,
-            format_args!("{key}.beam.{name}"),
-            found,
-            expected,
-        )?;
+        study.plausible_in_beam(format_args!("{key}.beam"), number, found)?;
     }
     Ok(())
 }

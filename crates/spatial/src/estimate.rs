@@ -22,6 +22,9 @@ const ROUNDS: usize = 5;
 /// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
 const NOISE: f64 = 0.01;
 
+/// Lines that are looked at for each one of the estimate, where the substructures have noise.
+const LOOKED_AT: usize = 10;
+
 /// Lines of the joint before all take part, where the substructures have noise.
 const FEW: usize = 200;
 
@@ -153,8 +156,9 @@ impl SpatialStudy {
         let mut has_converged = best.has_converged;
         let mut unknowns = best.unknowns;
         // joint and set-up at more lines
-        let kept = Beside::of(problem, &level, noise, &unknowns)?.kept(&unknowns)?;
-        let estimated = problem.with_lines(&kept).thinned(LINES_MAX);
+        let some = problem.thinned(LOOKED_AT * LINES_MAX);
+        let kept = Beside::of(&some, &level, noise, &unknowns)?.kept(&unknowns)?;
+        let estimated = some.with_lines(&kept).thinned(LINES_MAX);
         let explained = Beside::of(&estimated, &level, noise, &unknowns)?.explained(&unknowns)?;
         let estimated = estimated.with_lines(&explained);
         let mut squares = Beside::of(&estimated, &level, noise, &unknowns)?;
@@ -164,19 +168,24 @@ impl SpatialStudy {
         unknowns = best.unknowns.clone();
         // and the joint at all, beside the set-up that was found
         let exact = problem.displaced(&unknowns)?;
-        let mut joint = joint_of(problem, &unknowns);
-        let kept = Beside::of(&exact, &level, noise, &joint)?.kept(&joint)?;
-        let exact = exact.with_lines(&kept);
-        let explained = Beside::of(&exact, &level, noise, &joint)?.explained(&joint)?;
+        let joint = joint_of(problem, &unknowns);
+        let squares = Beside::of(&exact, &level, noise, &joint)?;
+        let kept = squares.kept(&joint)?;
+        let steady = exact.with_lines(&kept);
+        let mut squares = squares.on(&steady, &kept);
+        let explained = squares.explained(&joint)?;
         let kept: Vec<usize> = explained.iter().map(|&line| kept[line]).collect();
-        let exact = exact.with_lines(&explained);
-        for lines in [exact.thinned(FEW), exact.clone()] {
-            let mut squares = Beside::of(&lines, &level, noise, &joint)?;
-            let found = Fit::by(&mut squares, joint, Effort::Near)?;
-            has_converged &= found.has_converged;
-            joint = found.unknowns;
-        }
-        let mut squares = Beside::of(&exact, &level, noise, &joint)?;
+        let exact = steady.with_lines(&explained);
+        let mut squares = squares.on(&exact, &explained);
+        let few = exact.thinned(FEW);
+        let first = Fit::by(
+            &mut Beside::of(&few, &level, noise, &joint)?,
+            joint,
+            Effort::Near,
+        )?;
+        let fit = Fit::by(&mut squares, first.unknowns, Effort::Near)?;
+        has_converged &= first.has_converged && fit.has_converged;
+        let joint = fit.unknowns;
         let moved = squares.moved(&joint)?;
         let normal = squares.normal(&joint)?;
         let mut shown = problem.displaced(&unknowns)?.smoothed()?;

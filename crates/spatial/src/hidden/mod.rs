@@ -8,7 +8,9 @@
 //! S⁻¹ = W − W U M⁻¹ Uᴴ W, F = 2 Re Σ Jᴴ S⁻¹ J, g = 2 Re Σ Jᴴ S⁻¹ e.
 
 mod choice;
+mod follow;
 mod model;
+mod noise;
 mod rows;
 mod search;
 mod sums;
@@ -21,33 +23,17 @@ use num_complex::Complex64;
 pub(crate) use self::search::searched_beside;
 
 use self::model::{Computed, Hidden, Model, between_nodes};
+use self::noise::{Grids, reduced_by, weights};
 use self::rows::Rows;
 use self::sums::{Compared, Gathered};
-use crate::dyads::{Grid, Group, descent, information, squares};
+use crate::dyads::{Group, squares};
 use crate::error::SpatialError;
 use crate::fit::Squares;
 use crate::normal::{Deviations, Normal, add_priors, squares_of_errors};
-use crate::parallel::over_few_lines;
+use crate::parallel::{over_few_lines, over_lines};
 use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
 use crate::side::MOTIONS;
-
-/// Noise of a substructure that is said to have none, in parts of each value: nobody knows better.
-const LEAST: f64 = 1e-4;
-
-/// Values below this part of what their row and column have are noisy like such.
-const FAINT: f64 = 1e-4;
-
-/// Steps of h at most, and the squares below which one was the last.
-const STEPS_MAX: usize = 15;
-const SETTLED: f64 = 1e-9;
-
-/// Damping of a step of h: near a resonance the functions are not linear in it.
-const DAMPING_MIN: f64 = 1e-3;
-const DAMPING_MAX: f64 = 1e6;
-
-/// Squares of a line over its numbers that no noise explains.
-const LAGGING: f64 = 2.0;
 
 /// The squares of everything that was measured.
 pub(crate) struct Beside<'p> {
@@ -61,11 +47,6 @@ pub(crate) struct Beside<'p> {
     hidden: Vec<Hidden>,
     measured: Vec<Hidden>,
     tried: Option<(Unknowns, Vec<Hidden>)>,
-}
-
-struct Grids {
-    assembly: Grid,
-    own: [Vec<Grid>; 2],
 }
 
 impl<'p> Beside<'p> {
@@ -86,19 +67,24 @@ impl<'p> Beside<'p> {
                 left: rows.reduction.rows.clone(),
                 right: rows.reduction.columns.transpose(),
             };
-            for functions in &side.lines {
-                // weights by what is measured would favour what noise has made small
-                let first = weights(functions, noise[n]);
-                let smooth = rows
-                    .reduction
-                    .expanded(&reduced_by(&own, &first, functions)?);
-                let weights = match side.points() {
-                    Some(_) => self::weights(&smooth, noise[n]),
-                    None => first,
+            let parts = over_lines(side.lines.len(), |lines| {
+                let of = |line: usize| {
+                    let functions = &side.lines[line];
+                    // weights by what is measured would favour what noise has made small
+                    let first = weights(functions, noise[n]);
+                    let weights = match side.points() {
+                        Some(_) => {
+                            let smooth = reduced_by(&own, &first, functions)?;
+                            weights(&rows.reduction.expanded(&smooth), noise[n])
+                        }
+                        None => first,
+                    };
+                    let reduced = reduced_by(&own, &weights, functions)?;
+                    Ok::<_, SpatialError>((weights, reduced))
                 };
-                reduced[n].push(reduced_by(&own, &weights, functions)?);
-                own_weights[n].push(weights);
-            }
+                lines.map(of).collect::<Result<Vec<_>, _>>()
+            })?;
+            (own_weights[n], reduced[n]) = parts.into_iter().flatten().unzip();
         }
         let [a, b] = reduced;
         let hidden: Vec<Hidden> = a.into_iter().zip(b).map(<[_; 2]>::from).collect();
@@ -113,6 +99,25 @@ impl<'p> Beside<'p> {
             hidden,
             tried: None,
         })
+    }
+
+    /// The same at these of its lines, which are all that `problem` has; h stands where it stood.
+    pub(crate) fn on<'q>(&self, problem: &'q Problem, lines: &[usize]) -> Beside<'q> {
+        fn these<T: Clone>(all: &[T], lines: &[usize]) -> Vec<T> {
+            lines.iter().map(|&line| all[line].clone()).collect()
+        }
+        let own_weights = self.own_weights.each_ref().map(|own| these(own, lines));
+        let hidden = these(&self.hidden, lines);
+        Beside {
+            problem,
+            nodes: between_nodes(problem, &hidden),
+            grids: Grids::of(&self.weights, &own_weights, 1.0),
+            weights: self.weights.clone(),
+            own_weights,
+            hidden,
+            measured: these(&self.measured, lines),
+            tried: None,
+        }
     }
 
     /// With h as it was measured.
@@ -196,28 +201,6 @@ impl<'p> Beside<'p> {
         [count(0), count(1)]
     }
 
-    /// What the line says of h alone.
-    fn of_hidden(&self, model: &Model<'_>, line: usize, computed: &Computed) -> Gathered {
-        let [a, b] = self.hidden_counts();
-        let places = [0, a];
-        let mut all = vec![Compared {
-            grid: &self.grids.assembly,
-            errors: self.errors(line, computed),
-            groups: vec![
-                (0, model.of_hidden(0, computed)),
-                (a, model.of_hidden(1, computed)),
-            ],
-        }];
-        for n in [0, 1] {
-            all.push(Compared {
-                grid: &self.grids.own[n][line],
-                errors: self.own_errors(n, line, computed),
-                groups: vec![(places[n], model.of_hidden_alone(n))],
-            });
-        }
-        Gathered::of(a + b, all)
-    }
-
     /// What it says of h, then of the joints, then of the rows of the set-up of each side.
     fn of_everything(
         &self,
@@ -270,77 +253,6 @@ impl<'p> Beside<'p> {
         self.problem.tolerances.is_some() && self.problem.sides[side].points().is_some()
     }
 
-    /// h as it follows at one line, from where it is; and the line's squares.
-    fn followed(
-        &self,
-        model: &Model<'_>,
-        line: usize,
-        from: &Hidden,
-    ) -> Result<(Hidden, f64), SpatialError> {
-        let mut hidden = from.clone();
-        let mut computed = model.line(line, &hidden)?;
-        let mut lowest = self.squares(line, &computed);
-        let mut damping = 0.0;
-        for _ in 0..STEPS_MAX {
-            let Gathered {
-                products, slopes, ..
-            } = self.of_hidden(model, line, &computed);
-            let mut moved = None;
-            let mut gain = 0.0;
-            while moved.is_none() && damping < DAMPING_MAX {
-                let mut damped = products.clone();
-                for n in 0..damped.nrows() {
-                    damped[(n, n)] *= 1.0 + damping;
-                }
-                let root = Cholesky::new(damped).ok_or(SpatialError::NotDetermined)?;
-                let step = root.solve(&slopes);
-                gain = slopes.dotc(&step).re;
-                let trial = advanced(&hidden, &step, 1.0);
-                moved = model.line(line, &trial).ok().and_then(|own| {
-                    let found = self.squares(line, &own);
-                    (found < lowest).then_some((trial, own, found))
-                });
-                if gain < SETTLED * (1.0 + lowest) {
-                    break;
-                }
-                damping = match moved {
-                    None => (10.0 * damping).max(DAMPING_MIN),
-                    Some(_) if damping > DAMPING_MIN => 0.1 * damping,
-                    Some(_) => 0.0,
-                };
-            }
-            let Some((trial, own, found)) = moved else {
-                break;
-            };
-            (hidden, computed, lowest) = (trial, own, found);
-            if gain < SETTLED * (1.0 + lowest) {
-                break;
-            }
-        }
-        Ok((hidden, 2.0 * lowest))
-    }
-
-    /// The lines that joint and set-up explain, of those that are here: at the others h cannot be found, as near a resonance that
-    /// moves by more than its width. All, where so many are not explained that it is not their fault.
-    pub(crate) fn explained(&self, unknowns: &Unknowns) -> Result<Vec<usize>, SpatialError> {
-        let model = Model::of(self.problem, &self.nodes, unknowns)?;
-        let lines = self.measured.len();
-        let numbers = (self.numbers() / lines.max(1)) as f64;
-        let parts = over_few_lines(lines, |lines| {
-            let of = |line: usize| {
-                let (_, squares) = self.followed(&model, line, &self.measured[line])?;
-                Ok::<_, SpatialError>(squares < LAGGING * numbers)
-            };
-            lines.map(of).collect::<Result<Vec<_>, _>>()
-        })?;
-        let is_explained = parts.concat();
-        let explained: Vec<usize> = (0..lines).filter(|&line| is_explained[line]).collect();
-        Ok(match 10 * explained.len() >= 9 * lines {
-            true => explained,
-            false => (0..lines).collect(),
-        })
-    }
-
     /// The normal equations at these unknowns and this h.
     fn normal_at(&self, unknowns: &Unknowns, hidden: &[Hidden]) -> Result<Normal, SpatialError> {
         let model = self.model(unknowns)?;
@@ -380,21 +292,6 @@ impl<'p> Beside<'p> {
     pub(crate) fn normal_as_measured(&self, unknowns: &Unknowns) -> Result<Normal, SpatialError> {
         self.normal_at(unknowns, &self.measured)
     }
-
-    fn all_followed(&self, unknowns: &Unknowns) -> Result<(Vec<Hidden>, f64), SpatialError> {
-        let model = self.model(unknowns)?;
-        let parts = over_few_lines(self.hidden.len(), |lines| {
-            let of = |line: usize| self.followed(&model, line, &self.hidden[line]);
-            lines.map(of).collect::<Result<Vec<_>, SpatialError>>()
-        })?;
-        let mut cost = squares_of_errors(self.problem, unknowns);
-        let mut hidden = Vec::new();
-        for (own, squares) in parts.into_iter().flatten() {
-            hidden.push(own);
-            cost += squares;
-        }
-        Ok((hidden, cost))
-    }
 }
 
 impl Squares for Beside<'_> {
@@ -415,60 +312,6 @@ impl Squares for Beside<'_> {
         self.tried = Some((unknowns.clone(), hidden));
         Ok(cost)
     }
-}
-
-impl Grids {
-    fn of(weights: &DMatrix<f64>, own: &[Vec<DMatrix<f64>>; 2], factor: f64) -> Self {
-        let by = factor.powi(-2);
-        Self {
-            assembly: Grid::new(weights * by),
-            own: own
-                .each_ref()
-                .map(|own| own.iter().map(|own| Grid::new(own * by)).collect()),
-        }
-    }
-}
-
-/// 1/σ² of functions whose noise is this part of each value.
-fn weights(functions: &DMatrix<Complex64>, part: f64) -> DMatrix<f64> {
-    let rms = |all: Vec<f64>| (all.iter().sum::<f64>() / all.len().max(1) as f64).sqrt();
-    let of_rows: Vec<f64> = (functions.row_iter())
-        .map(|row| rms(row.iter().map(Complex64::norm_sqr).collect()))
-        .collect();
-    let of_columns: Vec<f64> = (functions.column_iter())
-        .map(|column| rms(column.iter().map(Complex64::norm_sqr).collect()))
-        .collect();
-    let all = rms(functions.iter().map(Complex64::norm_sqr).collect());
-    DMatrix::from_fn(functions.nrows(), functions.ncols(), |i, j| {
-        let least = FAINT * of_rows[i] * of_columns[j] / all;
-        let size = functions[(i, j)].norm().max(least) * part.max(LEAST);
-        if size > 0.0 { size.powi(-2) } else { 0.0 }
-    })
-}
-
-/// h by weighted least squares.
-fn reduced_by(
-    own: &Group,
-    weights: &DMatrix<f64>,
-    functions: &DMatrix<Complex64>,
-) -> Result<DMatrix<Complex64>, SpatialError> {
-    let grid = Grid::new(weights.clone());
-    let own = std::slice::from_ref(own);
-    let root = Cholesky::new(information(&grid, own)).ok_or(SpatialError::NotDetermined)?;
-    let values = root.solve(&descent(&grid, own, functions));
-    let (rows, columns) = (own[0].left.ncols(), own[0].right.nrows());
-    Ok(DMatrix::from_row_slice(rows, columns, values.as_slice()))
-}
-
-/// h with a part of a step, whose numbers are row by row.
-fn advanced(hidden: &Hidden, step: &DVector<Complex64>, part: f64) -> Hidden {
-    let mut first = 0;
-    hidden.each_ref().map(|own| {
-        let (rows, columns) = own.shape();
-        let values = step.rows(first, rows * columns);
-        first += rows * columns;
-        own + DMatrix::from_fn(rows, columns, |p, q| values[p * columns + q] * part)
-    })
 }
 
 /// Jᴴ S⁻¹ J and Jᴴ S⁻¹ e of a line, whose first dyads are those of h.

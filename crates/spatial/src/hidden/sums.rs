@@ -21,6 +21,23 @@ pub(super) struct Gathered {
     pub(super) squares: f64,
 }
 
+/// Σ w conj(∂f/∂θ) e alone.
+pub(super) fn slopes(count: usize, all: &[Compared<'_>]) -> DVector<Complex64> {
+    let mut sum = DVector::zeros(count);
+    for Compared {
+        grid,
+        errors,
+        groups,
+    } in all
+    {
+        for (place, group) in groups {
+            let mut own = sum.rows_mut(*place, group.count());
+            own += descent(grid, std::slice::from_ref(group), errors);
+        }
+    }
+    sum
+}
+
 impl Gathered {
     pub(super) fn of(count: usize, all: Vec<Compared<'_>>) -> Self {
         let mut sum = Self {

@@ -1,5 +1,6 @@
 use nalgebra::DMatrix;
 
+use super::follow::advanced;
 use super::*;
 use crate::samples::{number, problem, unknowns};
 

@@ -1,0 +1,64 @@
+//! How much each function counts, beside noise of the assembly's and of the substructures' functions.
+
+use nalgebra::{Cholesky, DMatrix};
+use num_complex::Complex64;
+
+use crate::dyads::{Grid, Group, descent, information};
+use crate::error::SpatialError;
+
+/// Noise of a substructure that is said to have none, in parts of each value: nobody knows better.
+const LEAST: f64 = 1e-4;
+
+/// Values below this part of what their row and column have are noisy like such.
+const FAINT: f64 = 1e-4;
+
+/// Of the assembly's functions, and of those of the substructures at each line.
+pub(super) struct Grids {
+    pub(super) assembly: Grid,
+    pub(super) own: [Vec<Grid>; 2],
+}
+
+impl Grids {
+    /// As if all noise were so many times as large.
+    pub(super) fn of(weights: &DMatrix<f64>, own: &[Vec<DMatrix<f64>>; 2], factor: f64) -> Self {
+        let by = factor.powi(-2);
+        Self {
+            assembly: Grid::new(weights * by),
+            own: own
+                .each_ref()
+                .map(|own| own.iter().map(|own| Grid::new(own * by)).collect()),
+        }
+    }
+}
+
+/// 1/σ² of functions whose noise is this part of each value.
+pub(super) fn weights(functions: &DMatrix<Complex64>, part: f64) -> DMatrix<f64> {
+    let rms = |all: Vec<f64>| (all.iter().sum::<f64>() / all.len().max(1) as f64).sqrt();
+    let of_rows: Vec<f64> = (functions.row_iter())
+        .map(|row| rms(row.iter().map(Complex64::norm_sqr).collect()))
+        .collect();
+    let of_columns: Vec<f64> = (functions.column_iter())
+        .map(|column| rms(column.iter().map(Complex64::norm_sqr).collect()))
+        .collect();
+    let all = rms(functions.iter().map(Complex64::norm_sqr).collect());
+    DMatrix::from_fn(functions.nrows(), functions.ncols(), |i, j| {
+        let least = FAINT * of_rows[i] * of_columns[j] / all;
+        let size = functions[(i, j)].norm().max(least) * part.max(LEAST);
+        if size > 0.0 { size.powi(-2) } else { 0.0 }
+    })
+}
+
+/// h by weighted least squares.
+pub(super) fn reduced_by(
+    own: &Group,
+    weights: &DMatrix<f64>,
+    functions: &DMatrix<Complex64>,
+) -> Result<DMatrix<Complex64>, SpatialError> {
+    let grid = Grid::new(weights.clone());
+    let own = std::slice::from_ref(own);
+    let root = Cholesky::new(information(&grid, own)).ok_or(SpatialError::NotDetermined)?;
+    let values = root.solve(&descent(&grid, own, functions));
+    let (rows, columns) = (own[0].left.ncols(), own[0].right.nrows());
+    Ok(DMatrix::from_row_slice(rows, columns, values.as_slice()))
+}
+

@@ -19,7 +19,7 @@ const STEPS_MAX: usize = 40;
 const SETTLED: f64 = 1e-9;
 
 /// Damping of a step of h: near a resonance the functions are not linear in it.
-const DAMPING_MIN: f64 = 1e-3;
+const DAMPING_MIN: f64 = 1e-9;
 const DAMPING_MAX: f64 = 1e6;
 
 /// Squares that a step wins with factors from before, in parts of what the last step won, at most.
@@ -36,12 +36,7 @@ struct Place {
 }
 
 impl Beside<'_> {
-    fn place(
-        &self,
-        model: &Model<'_>,
-        line: usize,
-        hidden: Hidden,
-    ) -> Result<Place, SpatialError> {
+    fn place(&self, model: &Model<'_>, line: usize, hidden: Hidden) -> Result<Place, SpatialError> {
         let computed = model.line(line, &hidden)?;
         Ok(Place {
             squares: self.squares(line, &computed),
@@ -88,7 +83,11 @@ impl Beside<'_> {
                     if damping == 0.0 {
                         kept = Some(root);
                     }
-                    damping = if damping > DAMPING_MIN { 0.1 * damping } else { 0.0 };
+                    damping = if damping > DAMPING_MIN {
+                        0.1 * damping
+                    } else {
+                        0.0
+                    };
                 }
                 _ if is_last => break,
                 // with factors of its own

@@ -61,4 +61,3 @@ pub(super) fn reduced_by(
     let (rows, columns) = (own[0].left.ncols(), own[0].right.nrows());
     Ok(DMatrix::from_row_slice(rows, columns, values.as_slice()))
 }
-

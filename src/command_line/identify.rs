@@ -27,7 +27,7 @@ use super::draws::{alone, among, numbers, write_part};
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
 use super::kind::expect_study;
-use super::output::{ANY, HTML, SVG, check_output, check_outputs, print, warn, write_files};
+use super::output::{Ending, HTML, SVG, check_output, check_outputs, print, warn, write_files};
 use super::progress::Progress;
 use super::table::{Table, number};
 
@@ -77,7 +77,7 @@ pub(super) fn run_with(
     let taken = check_outputs(
         &arguments.study,
         &[
-            ("--output", Some(&arguments.output), ANY),
+            ("--output", Some(&arguments.output), Ending::OfJointFile),
             ("--figure", arguments.figure.as_ref(), SVG),
             ("--report", arguments.report.as_ref(), HTML),
         ],

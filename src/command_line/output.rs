@@ -82,13 +82,40 @@ pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliEr
     }
 }
 
-/// What a name may end in, and what is said where it does not; anything where nothing is named.
-pub(super) type Ending = (&'static [&'static str], &'static str);
+/// What a name may end in.
+pub(super) enum Ending {
+    Any,
+    /// In one of these, and what is said where it does not.
+    In(&'static [&'static str], &'static str),
+    /// In anything but what another kind of file ends in.
+    OfJointFile,
+}
 
-pub(super) const ANY: Ending = (&[], "");
-pub(super) const CSV: Ending = (&["csv"], "a name that ends in .csv");
-pub(super) const HTML: Ending = (&["html"], "a name that ends in .html");
-pub(super) const SVG: Ending = (&["svg"], "a name that ends in .svg");
+pub(super) const CSV: Ending = Ending::In(&["csv"], "a name that ends in .csv");
+pub(super) const HTML: Ending = Ending::In(&["html"], "a name that ends in .html");
+pub(super) const SVG: Ending = Ending::In(&["svg"], "a name that ends in .svg");
+
+/// What a joint file is not: what other commands write, or what is read.
+const OTHER_KINDS: [&str; 10] = [
+    "fmu", "ssp", "csv", "html", "svg", "mo", "toml", "uff", "npz", "mat",
+];
+
+impl Ending {
+    /// What is expected in place of this path; `None` where it fits.
+    fn expected_for(&self, path: &Path) -> Option<&'static str> {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        let is_in = |endings: &[&str]| extension.is_some_and(|found| endings.contains(&found));
+        match self {
+            Self::In(endings, expected) => {
+                (!is_standard_output(path) && !is_in(endings)).then_some(*expected)
+            }
+            Self::OfJointFile => is_in(&OTHER_KINDS).then_some(
+                "a name for the joint file, such as NAME.joint.json; `export` makes an FMU of it",
+            ),
+            Self::Any => None,
+        }
+    }
+}
 
 /// Refuses paths that cannot be written, name a file twice or end otherwise than the option asks for; gives all that are taken.
 pub(super) fn check_outputs<'a>(
@@ -96,13 +123,9 @@ pub(super) fn check_outputs<'a>(
     asked: &[(&'static str, Option<&'a PathBuf>, Ending)],
 ) -> Result<Vec<&'a PathBuf>, CliError> {
     let mut taken = vec![study];
-    for (option, path, (endings, expected)) in asked {
+    for (option, path, ending) in asked {
         let Some(path) = *path else { continue };
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        let fits = endings.is_empty()
-            || is_standard_output(path)
-            || extension.is_some_and(|found| endings.contains(&found));
-        if !fits {
+        if let Some(expected) = ending.expected_for(path) {
             return Err(CliError::option(option, path.display(), expected));
         }
         check_output(path, &taken)?;

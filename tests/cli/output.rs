@@ -39,6 +39,17 @@ fn outputs_that_cannot_be_written_are_refused() {
 }
 
 #[test]
+fn a_joint_file_is_not_named_like_an_fmu_or_a_table() {
+    let bench = bench();
+    for output in ["o.fmu", "o.csv", "other.toml"] {
+        let found = format!("--output: found {output}");
+        let fragments = [found.as_str(), "such as NAME.joint.json", "`export`"];
+        bench.refused(&format!("{IDENTIFY} {output}"), &fragments);
+        assert!(!bench.path(output).exists());
+    }
+}
+
+#[test]
 fn an_input_is_never_overwritten() {
     let bench = bench();
     let expected = ["same file as study.toml", "a name of its own"];

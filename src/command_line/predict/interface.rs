@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::super::draws::{among, write_part};
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, Ending, HTML, Outputs, check_outputs, print, warn};
+use super::super::output::{CSV, Ending, HTML, Outputs, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::super::table::{Table, number};
 use super::{PredictArguments, refuse};
@@ -20,8 +20,8 @@ use bolted_joint::predict::virtual_material::Card;
 use bolted_joint::report::PredictionReport;
 use bolted_joint::study::{Method, StudyError, StudyText};
 
-const MAC: Ending = (&["mac"], "a name that ends in .mac");
-const CARD: Ending = (
+const MAC: Ending = Ending::In(&["mac"], "a name that ends in .mac");
+const CARD: Ending = Ending::In(
     &["csv", "inp", "mac"],
     "a name that ends in .csv, in .inp for Abaqus or in .mac for ANSYS",
 );
@@ -48,7 +48,7 @@ pub(super) fn run(
     check_outputs(
         &arguments.study,
         &[
-            ("--output", Some(&arguments.output), ANY),
+            ("--output", Some(&arguments.output), Ending::OfJointFile),
             ("--report", arguments.report.as_ref(), HTML),
             ("--matrix-csv", arguments.matrix_csv.as_ref(), CSV),
             ("--matrix27", arguments.matrix27.as_ref(), MAC),

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, Outputs, SVG, check_outputs, print, warn};
+use super::super::output::{CSV, Ending, Outputs, SVG, check_outputs, print, warn};
 use super::super::progress::Progress;
 use super::{PredictArguments, refuse};
 use bolted_joint::draws::Numbers;
@@ -33,7 +33,7 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
     check_outputs(
         &arguments.study,
         &[
-            ("--output", Some(&arguments.output), ANY),
+            ("--output", Some(&arguments.output), Ending::OfJointFile),
             ("--damping-csv", arguments.damping_csv.as_ref(), CSV),
             ("--figure", arguments.figure.as_ref(), SVG),
         ],

@@ -12,7 +12,7 @@ use bolted_joint::study::StudyText;
 use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
 use super::super::error::CliError;
-use super::super::output::{ANY, CSV, check_outputs, print, warn, write_file};
+use super::super::output::{CSV, Ending, check_outputs, print, warn, write_file};
 use super::picture::{Picture, also};
 use super::{Format, RespondArguments, RespondNoise, format, output, pollution};
 
@@ -33,8 +33,8 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
     check_outputs(
         &arguments.study,
         &[
-            ("--output", Some(output), ANY),
-            ("--report", arguments.report.as_ref(), ANY),
+            ("--output", Some(output), Ending::Any),
+            ("--report", arguments.report.as_ref(), Ending::Any),
             ("--deviations", arguments.deviations.as_ref(), CSV),
         ],
     )?;

@@ -123,15 +123,20 @@ pub(super) fn check_outputs<'a>(
     asked: &[(&'static str, Option<&'a PathBuf>, Ending)],
 ) -> Result<Vec<&'a PathBuf>, CliError> {
     let mut taken = vec![study];
+    // that two files would be one says more than what a joint file is not called
+    let mut misnamed = None;
     for (option, path, ending) in asked {
         let Some(path) = *path else { continue };
-        if let Some(expected) = ending.expected_for(path) {
-            return Err(CliError::option(option, path.display(), expected));
+        let refused = |expected| CliError::option(option, path.display(), expected);
+        match (ending, ending.expected_for(path).map(refused)) {
+            (Ending::OfJointFile, found) => misnamed = misnamed.or(found),
+            (_, Some(found)) => return Err(found),
+            (_, None) => {}
         }
         check_output(path, &taken)?;
         taken.push(path);
     }
-    Ok(taken)
+    misnamed.map_or(Ok(taken), Err)
 }
 
 /// Refuses a `--plot` that is no page and no picture, cannot be written or would replace one of the files that are read.

@@ -109,12 +109,19 @@ impl Ending {
             Self::In(endings, expected) => {
                 (!is_standard_output(path) && !is_in(endings)).then_some(*expected)
             }
-            Self::OfJointFile => is_in(&OTHER_KINDS).then_some(
+            Self::OfJointFile => is_of_another_kind(path).then_some(
                 "a name for the joint file, such as NAME.joint.json; `export` makes an FMU of it",
             ),
             Self::Any => None,
         }
     }
+}
+
+/// In capitals or not: nobody calls a joint file X.FMU either.
+fn is_of_another_kind(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let is = |kind: &&str| extension.is_some_and(|found| found.eq_ignore_ascii_case(kind));
+    OTHER_KINDS.iter().any(is)
 }
 
 /// Refuses paths that cannot be written, name a file twice or end otherwise than the option asks for; gives all that are taken.

@@ -41,7 +41,7 @@ fn outputs_that_cannot_be_written_are_refused() {
 #[test]
 fn a_joint_file_is_not_named_like_an_fmu_or_a_table() {
     let bench = bench();
-    for output in ["o.fmu", "o.csv", "other.toml"] {
+    for output in ["o.fmu", "O.FMU", "o.csv", "other.toml"] {
         let found = format!("--output: found {output}");
         let fragments = [found.as_str(), "such as NAME.joint.json", "`export`"];
         bench.refused(&format!("{IDENTIFY} {output}"), &fragments);

@@ -14,9 +14,9 @@ pub use bolted_joint_dynamics::law::Term;
 pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
-    AtLimit, BackboneLine, BackbonePrediction, BackboneRun, BetweenRuns, Estimate, Expected, Fall,
-    Fit, LapResponse, LapResponseStudy, Limit, Model, ModelComparison, NoInterval, Noise, NoiseIs,
-    Place, PointPrediction, Prediction, Resonance, ResonanceInterval, ResponseUnknown, RunScatter,
+    AtLimit, BackboneLine, BackbonePrediction, BackboneRun, BetweenRuns, Coloured, Estimate, Expected,
+    Fall, Fit, InTime, LapResponse, LapResponseStudy, Limit, Model, ModelComparison, NoInterval,
+    Noise, NoiseIs, NotInTime, Place, PointPrediction, Prediction, Resonance, ResonanceInterval, ResponseUnknown, RunScatter,
     SineLine, SineRun, Slider, SliderParameter, SliderValues, TermSet, Use, Values, fit_responses,
     measured_resonance, predicted_resonance,
 };

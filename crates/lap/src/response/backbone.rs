@@ -3,11 +3,14 @@
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use bolted_joint_dynamics::law::Term;
 
 use super::data::{RESPONSE, Use};
-use super::decay::{DecayProblem, Following, ReadingErrors, backbone_of};
+use super::decay::{
+    Decay, DecayProblem, Following, ReadingErrors, Recorded, Rows, backbone_of,
+};
 use super::dynamic_stiffness::RelativeMotion;
 use super::fit::Data;
 use super::model::{Model, ResponseUnknown, Values};
@@ -37,14 +40,34 @@ pub struct BackboneRun {
     pub(super) errors: Option<ReadingErrors>,
     /// How the reading of the model's own decay follows its unknowns, where that is known.
     pub(super) following: Option<Following>,
+    /// The record of a free decay.
+    pub(super) recorded: Option<Arc<Recorded>>,
+    /// What the samples of that record say of the unknowns, where they are fitted in place of the points.
+    pub(super) rows: Option<Rows>,
 }
 
 /// A residual with its derivatives by the model's unknowns.
 pub(super) type Row = (f64, Vec<f64>);
 
 impl BackboneRun {
+    /// Numbers that it brings beyond what is its own.
+    pub(super) fn count(&self) -> usize {
+        let of_points = || self.lines.iter().map(BackboneLine::count).sum();
+        self.rows.as_ref().map_or_else(of_points, Rows::count)
+    }
+
+    /// The largest displacement of the relative motion in it, m.
+    pub(super) fn largest_m(&self) -> f64 {
+        let of_points = self.lines.iter().map(|line| line.amplitude_m);
+        let released = self.rows.as_ref().map(Rows::released_m);
+        of_points.chain(released).fold(0.0, f64::max)
+    }
+
     /// Residuals in standard deviations with their derivatives by the model's unknowns.
     pub(super) fn residuals(&self, model: &Model, values: &Values, noise: &Noise) -> Vec<Row> {
+        if let Some(rows) = &self.rows {
+            return rows.at(model, values);
+        }
         let motion = RelativeMotion::fundamental(values);
         let lines = self.lines.iter();
         let deviations = lines.map(|line| line.deviations(model, values, &motion));
@@ -282,7 +305,7 @@ pub(super) fn read_decay(
     band_hz: Option<[f64; 2]>,
     share: f64,
     noise: &Noise,
-) -> Result<(Vec<BackboneLine>, ReadingErrors), LapError> {
+) -> Result<Decay, LapError> {
     let table = NumberTable::read(path)?;
     let (time, _) = table.required(&["time_s"], "")?;
     let (response, order) = table.required(&RESPONSE, "")?;

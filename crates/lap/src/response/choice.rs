@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun, Use};
-use super::decay::{corrected, followed};
+use super::decay::{InTime, corrected, fitted, followed};
 use super::fit::{self, Data, Fit, Kind};
 use super::model::Model;
 use super::passive::Limit;
@@ -49,6 +49,8 @@ pub(super) struct Candidate {
     pub(super) starts: (usize, usize),
     /// Standard deviations by which it moved as decays were read the last time.
     pub(super) unrest: f64,
+    /// How decays went into it.
+    pub(super) in_time: InTime,
     /// Highest harmonic of the relative motion in `fit`.
     pub(super) harmonics: usize,
     /// Backbones and decays as they were fitted.
@@ -137,7 +139,7 @@ pub(super) fn choose(
     match chosen {
         Some(chosen) => {
             let read = read_to_the_end(study, chosen, &runs);
-            Ok((refined(study, read, &runs), comparison))
+            Ok((in_time(study, refined(study, read, &runs)), comparison))
         }
         None => {
             let reason = failure.unwrap_or(LapError::NoEstimate);
@@ -183,6 +185,29 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
         }
     }
     found
+}
+
+/// The candidate fitted to the samples of decays, where what it leaves of them is noise.
+fn in_time(study: &LapResponseStudy, candidate: Candidate) -> Candidate {
+    let measured = fitted_backbones(study);
+    if measured.iter().all(|run| run.recorded.is_none()) {
+        return candidate;
+    }
+    let model = candidate.model(study);
+    match fitted(study, &model, &candidate.fit, &measured) {
+        Ok(found) => Candidate {
+            fit: found.fit,
+            free: found.free,
+            unrest: found.moved,
+            in_time: InTime::Fitted,
+            backbones: found.runs,
+            ..candidate
+        },
+        Err(reason) => Candidate {
+            in_time: InTime::Read(reason),
+            ..candidate
+        },
+    }
 }
 
 /// The candidate with all harmonics that the study asks for.
@@ -283,6 +308,7 @@ fn candidate(
         free,
         starts: (followed, agreeing),
         unrest: 0.0,
+        in_time: InTime::NoDecay,
         backbones: own,
     })
 }

@@ -203,9 +203,9 @@ fn fit_up_to(
             multiplier: 2.0 * multiplier,
             gradient: bound.gradient,
         });
-    let of_points = data.points().map(|line| line.amplitude_m);
+    let of_curves = data.backbones.iter().map(|run| run.largest_m());
     let amplitudes_m: Vec<f64> = state.log_amplitudes.iter().map(|log| log.exp()).collect();
-    let largest = amplitudes_m.iter().copied().chain(of_points);
+    let largest = amplitudes_m.iter().copied().chain(of_curves);
     Ok(Fit {
         values: state.values,
         amplitude_m: largest.fold(0.0, f64::max),

@@ -29,6 +29,7 @@ mod warnings;
 pub use backbone::{BackboneLine, BackboneRun};
 pub use choice::ModelComparison;
 pub use data::{SineLine, SineRun, Use};
+pub use decay::{Coloured, InTime, NotInTime};
 pub use fit::{AtLimit, Fit};
 pub use model::{Model, ResponseUnknown, Values};
 pub use passive::Limit;

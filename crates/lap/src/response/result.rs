@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::super::input;
 use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
+use super::decay::InTime;
 use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
 use super::prediction::{BackbonePrediction, BetweenRuns, NoInterval, Prediction, Spread};
@@ -68,6 +69,8 @@ pub struct LapResponse {
     pub starts: (usize, usize),
     /// Standard deviations by which the estimate still moved as decays were read anew the last time.
     pub(super) unrest: f64,
+    /// How free decays went into the estimate.
+    pub in_time: InTime,
     /// Resonances of all runs, measured and of the model.
     pub predictions: Vec<Prediction>,
     /// Backbones and free decays beside the model's.
@@ -182,6 +185,7 @@ impl LapResponse {
             comparison,
             starts: chosen.starts,
             unrest: chosen.unrest,
+            in_time: chosen.in_time,
             predictions,
             backbones: of_backbones,
             between_runs,

@@ -6,7 +6,7 @@ mod many;
 use std::f64::consts::PI;
 
 use bolted_joint_dynamics::{
-    Dual, Number,
+    DofLaws, Dual, Number,
     law::{Iwan, Jenkins, Law},
 };
 use num_complex::Complex64;
@@ -212,6 +212,14 @@ impl SliderValues {
             }
         };
         all.into_iter().map(|n| (n.value, n.change)).collect()
+    }
+
+    /// The law that a lap moves by.
+    pub(super) fn laws(&self) -> DofLaws {
+        match self.law(self.logs) {
+            Valued::Jenkins(law) => law.into(),
+            Valued::Iwan(law) => law.into(),
+        }
     }
 
     /// Its load at a displacement (m) that it came to straight from rest, N.

@@ -5,7 +5,10 @@
 //! of the amplitude, and from what the signal leaves of the record: where one is in the way, the record is refused.
 
 mod errors;
+mod in_time;
+mod motion;
 mod one_mode;
+mod recorded;
 mod simulated;
 mod spectrum;
 mod stretch;
@@ -20,6 +23,9 @@ use self::stretch::{Part, Point, Stretch, covariance};
 use super::backbone::BackboneLine;
 
 pub(super) use self::errors::ReadingErrors;
+pub(super) use self::in_time::{Rows, fitted};
+pub use self::in_time::{Coloured, InTime, NotInTime};
+pub(super) use self::recorded::{Quantity, Recorded};
 pub(super) use self::simulated::{Following, beside, corrected, followed};
 
 /// Half-periods that a point of the backbone is read over.
@@ -73,7 +79,7 @@ pub(super) fn backbone_of(
     order: i32,
     share: f64,
     beside: [f64; 2],
-) -> Result<(Vec<BackboneLine>, ReadingErrors), DecayProblem> {
+) -> Result<Decay, DecayProblem> {
     let record = Record::of(samples)?;
     let spectrum = Spectrum::of(&record);
     let mode_hz = spectrum.only_mode(band_hz)?;
@@ -103,7 +109,25 @@ pub(super) fn backbone_of(
     }
     let errors = stretches.errors(&lines, beside);
     let errors = errors.ok_or(DecayProblem::TooShort(lines.len()))?;
-    Ok((lines, errors))
+    Ok(Decay {
+        lines,
+        errors,
+        recorded: Recorded {
+            interval_s: record.interval_s,
+            values: record.values,
+            quantity: Quantity::of_order(order),
+            share,
+            noise: spectrum.noise,
+            has_band: band_hz.is_some(),
+        },
+    })
+}
+
+/// A free decay: the points of its backbone with their errors, and the record that they were read from.
+pub(super) struct Decay {
+    pub(super) lines: Vec<BackboneLine>,
+    pub(super) errors: ReadingErrors,
+    pub(super) recorded: Recorded,
 }
 
 /// Samples at equal distances.

@@ -8,7 +8,7 @@ fn lines_of(
     order: i32,
     share: f64,
 ) -> Result<Vec<BackboneLine>, DecayProblem> {
-    backbone_of(samples, band_hz, order, share, [0.0; 2]).map(|(lines, _)| lines)
+    backbone_of(samples, band_hz, order, share, [0.0; 2]).map(|read| read.lines)
 }
 
 /// x = e^(−ζω₀t) cos ω_d t, sampled; amplitude, ζ, frequency in Hz.

@@ -15,7 +15,8 @@ pub(in crate::response) struct Data<'a> {
 impl<'a> Data<'a> {
     /// Numbers beyond the amplitudes.
     pub(super) fn count(&self) -> usize {
-        2 * self.lines.len() + self.points().map(BackboneLine::count).sum::<usize>()
+        let of_curves = self.backbones.iter().map(|run| run.count());
+        2 * self.lines.len() + of_curves.sum::<usize>()
     }
 
     /// Points of all backbones and decays.
@@ -67,8 +68,8 @@ impl Start<'_> {
 
     /// Largest displacement that it makes of the data, m.
     pub(super) fn largest_m(&self, model: &Model, data: Data<'_>) -> f64 {
-        let of_points = data.points().map(|line| line.amplitude_m);
+        let of_curves = data.backbones.iter().map(|run| run.largest_m());
         let of_lines = self.amplitudes_m(model, data).into_iter();
-        of_lines.chain(of_points).fold(f64::MIN_POSITIVE, f64::max)
+        of_lines.chain(of_curves).fold(f64::MIN_POSITIVE, f64::max)
     }
 }

@@ -5,6 +5,7 @@ mod noise;
 mod tables;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -219,6 +220,8 @@ impl LapResponseStudy {
                 lines: read_backbone(&path, share)?,
                 errors: None,
                 following: None,
+                recorded: None,
+                rows: None,
                 path,
                 used_for: table.used_for,
             })
@@ -226,12 +229,14 @@ impl LapResponseStudy {
         let decays = file.decay.into_iter().map(|table| {
             let path = study.resolved(&table.file);
             let band_hz = table.band.map(|band| band_hz(study, band)).transpose()?;
-            let (lines, errors) = read_decay(&path, band_hz, share, &noise)?;
+            let read = read_decay(&path, band_hz, share, &noise)?;
             Ok(BackboneRun {
                 name: name_of(table.name, &table.file),
-                lines,
-                errors: Some(errors),
+                lines: read.lines,
+                errors: Some(read.errors),
                 following: None,
+                recorded: Some(Arc::new(read.recorded)),
+                rows: None,
                 path,
                 used_for: table.used_for,
             })

@@ -1,0 +1,134 @@
+//! The motion beside a record, and where it began: at a turn just before the first sample. Displacement and time of that are
+//! unknown beside the model's numbers, and so is the sensor's offset.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{DVector, Matrix2, Matrix3, Vector2, Vector3};
+use num_complex::Complex64;
+
+use crate::response::decay::motion::{Grid, Release, sampled};
+use crate::response::decay::recorded::Recorded;
+use crate::response::model::Values;
+
+/// Periods that the first guess is taken from.
+const GUESSED_FROM: f64 = 2.0;
+/// Periods that it is improved by, one after the other, and how often.
+const IMPROVED_BY: [f64; 2] = [3.0, 12.0];
+const IMPROVEMENTS: usize = 4;
+/// Step of differences: part of the displacement, and angle, rad.
+const STEP: f64 = 1e-4;
+/// Part of a sample's distance by which a release may lie behind the first sample at first.
+const BEHIND: f64 = 0.25;
+
+/// A motion beside a record.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Course {
+    pub(super) release: Release,
+    /// What the record has beyond it, less its mean, in standard deviations of the noise.
+    pub(super) residual: DVector<f64>,
+}
+
+impl Course {
+    /// Of a lap with these values; `None` where that moves as no decay does.
+    pub(super) fn of(
+        values: &Values,
+        release: Release,
+        record: &Recorded,
+        grid: &Grid,
+    ) -> Option<Self> {
+        let own = sampled(values, &release, record, grid)?;
+        let pairs = record.values.iter().zip(&own);
+        let beyond = pairs.map(|(measured, own)| (measured - own) / record.noise);
+        let mut residual = DVector::from_iterator(own.len(), beyond);
+        // the offset that fits best
+        let mean = residual.mean();
+        residual.add_scalar_mut(-mean);
+        let is_finite = residual.iter().all(|entry| entry.is_finite());
+        is_finite.then_some(Self { release, residual })
+    }
+
+    pub(super) fn chi_squared(&self) -> f64 {
+        self.residual.norm_squared()
+    }
+}
+
+/// Steps of the displacement (m) and of the time (s) of a release, for differences.
+pub(super) fn steps(release: &Release, grid: &Grid) -> [f64; 2] {
+    [STEP * release.displacement_m.abs(), STEP / grid.omega]
+}
+
+/// The release moved by so much.
+pub(super) fn moved(release: &Release, change: [f64; 2]) -> Release {
+    Release {
+        displacement_m: release.displacement_m + change[0],
+        time_s: release.time_s + change[1],
+    }
+}
+
+/// Where a record began that falls at this rate (1/s) at first: `None` where that is not found.
+pub(super) fn found(
+    values: &Values,
+    record: &Recorded,
+    grid: &Grid,
+    rate: f64,
+) -> Option<Release> {
+    let mut release = guessed(record, grid.omega, rate)?;
+    for periods in IMPROVED_BY {
+        let samples = (periods * TAU / grid.omega / record.interval_s) as usize;
+        let part = grid.up_to(samples);
+        for _ in 0..IMPROVEMENTS {
+            release = improved(values, record, &part, &release)?;
+        }
+    }
+    Some(release)
+}
+
+/// From x = e^(−δt) (a cos ωt + b sin ωt) + c over the first periods.
+fn guessed(record: &Recorded, omega: f64, rate: f64) -> Option<Release> {
+    let count = (GUESSED_FROM * TAU / omega / record.interval_s) as usize;
+    let first = record.values.get(..count)?;
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for (n, value) in first.iter().enumerate() {
+        let time_s = record.interval_s * n as f64;
+        let (sine, cosine) = (omega * time_s).sin_cos();
+        let falls = (-rate * time_s).exp();
+        let row = Vector3::new(falls * cosine, falls * sine, 1.0);
+        normal += row * row.transpose();
+        right += row * *value;
+    }
+    let found = normal.lu().solve(&right)?;
+    // x = Re X e^(jωt), of which the displacement is (jω)^(−order) X over the share
+    let order = record.quantity.order();
+    let derived = Complex64::new(0.0, omega).powi(order) * record.share;
+    let displacement = Complex64::new(found[0], -found[1]) / derived;
+    // it turns where ωt + arg is a multiple of π: the last one before the first sample, or just behind it
+    let latest = BEHIND * omega * record.interval_s;
+    let half_turns = ((latest + displacement.arg()) / PI).floor();
+    let angle = half_turns * PI - displacement.arg();
+    let time_s = angle / omega;
+    let sign = if half_turns.rem_euclid(2.0) < 0.5 { 1.0 } else { -1.0 };
+    Some(Release {
+        displacement_m: sign * displacement.norm() * (-rate * time_s).exp(),
+        time_s,
+    })
+}
+
+/// One step of Gauss and Newton.
+fn improved(values: &Values, record: &Recorded, grid: &Grid, from: &Release) -> Option<Release> {
+    let own = Course::of(values, *from, record, grid)?;
+    let steps = steps(from, grid);
+    let columns = [[steps[0], 0.0], [0.0, steps[1]]].map(|change| {
+        let other = Course::of(values, moved(from, change), record, grid)?;
+        Some((other.residual - &own.residual) / (change[0] + change[1]))
+    });
+    let [Some(by_displacement), Some(by_time)] = columns else {
+        return None;
+    };
+    let both = [by_displacement, by_time];
+    let normal = Matrix2::from_fn(|i, j| both[i].dot(&both[j]));
+    let right = Vector2::from_fn(|i, _| -both[i].dot(&own.residual));
+    let change = normal.lu().solve(&right)?;
+    let release = moved(from, [change[0], change[1]]);
+    let is_finite = release.displacement_m.is_finite() && release.time_s.is_finite();
+    is_finite.then_some(release)
+}

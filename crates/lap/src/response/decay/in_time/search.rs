@@ -1,0 +1,315 @@
+//! The likelihood of all samples at its maximum: Gauss–Newton steps over the model's numbers, with each record's release eliminated.
+//!
+//! Each step is a fit to the square forms of the records, within the limits of a passive joint. Derivatives are central
+//! differences, and hold for a few steps.
+
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+use super::NotInTime;
+use super::release::{self, Course};
+use super::rows::{Normal, Rows};
+use crate::response::backbone::BackboneRun;
+use crate::response::decay::motion::{Grid, Release};
+use crate::response::decay::recorded::Recorded;
+use crate::response::fit::{Data, Fit, Kind, fit};
+use crate::response::model::{Model, ResponseUnknown, Values};
+use crate::response::study::Noise;
+
+/// How often derivatives are taken, and steps with the same ones.
+const DERIVED: usize = 8;
+const STEPS: usize = 6;
+/// Standard deviations of a step that is none with derivatives of the same place, and with older ones.
+const SETTLED: f64 = 0.05;
+const SMALL: f64 = 0.02;
+/// Trials of a step, how strongly the second one is drawn back, and by how much more each that follows.
+const TRIALS: usize = 10;
+const DRAWN: f64 = 1e-9;
+const STRONGER: f64 = 10.0;
+/// Longest step of the logarithm of a law's number.
+const LONGEST: f64 = 0.7;
+/// Part of χ² that is rounding.
+const ROUNDING: f64 = 1e-10;
+/// Step of a difference in what the other unknowns being known would leave uncertain, and the longest: of a law's logarithms,
+/// and as part of others.
+const PART: f64 = 0.1;
+const LONGEST_DIFFERENCE: f64 = 0.01;
+/// Least eigenvalue of the scaled information that is more than rounding of differences.
+const TOLD: f64 = 1e-9;
+/// Numbers of each record that are its own: displacement and time of the release, and the offset.
+pub(super) const OWN: usize = 3;
+
+/// A record that is followed.
+pub(super) struct Run<'a> {
+    pub(super) record: &'a Recorded,
+    pub(super) grid: Grid,
+    /// What of the run stays with its rows.
+    pub(super) plain: BackboneRun,
+}
+
+/// A place among the unknowns.
+pub(super) struct State {
+    pub(super) values: Values,
+    pub(super) courses: Vec<Course>,
+    chi_squared: f64,
+}
+
+/// Where a search ended.
+pub(super) struct Ended {
+    pub(super) fit: Fit,
+    pub(super) state: State,
+    /// Standard deviations of the last step.
+    pub(super) moved: f64,
+    pub(super) runs: Vec<BackboneRun>,
+}
+
+/// The search.
+pub(super) struct Search<'a> {
+    pub(super) model: &'a Model,
+    pub(super) noise: &'a Noise,
+    pub(super) runs: Vec<Run<'a>>,
+    /// What the other unknowns being known would leave uncertain of each, as read.
+    pub(super) deviations: Vec<f64>,
+}
+
+/// How the residual of a record grows with the unknowns and with its release.
+struct Slopes {
+    by_unknown: DMatrix<f64>,
+    by_release: DMatrix<f64>,
+    /// Information of the release, and of it (rows) with the unknowns.
+    of_release: Matrix2<f64>,
+    between: DMatrix<f64>,
+    /// Of the unknowns, the release following.
+    information: DMatrix<f64>,
+}
+
+/// A step that was taken.
+struct Step {
+    state: State,
+    fit: Fit,
+    runs: Vec<BackboneRun>,
+    /// Its length in standard deviations.
+    length: f64,
+    is_drawn: bool,
+}
+
+impl State {
+    pub(super) fn of(search: &Search<'_>, values: Values, releases: &[Release]) -> Option<Self> {
+        let pairs = search.runs.iter().zip(releases);
+        let courses = pairs.map(|(run, release)| {
+            Course::of(&values, *release, run.record, &run.grid)
+        });
+        let courses: Vec<Course> = courses.collect::<Option<_>>()?;
+        let chi_squared = courses.iter().map(Course::chi_squared).sum();
+        Some(Self {
+            values,
+            courses,
+            chi_squared,
+        })
+    }
+}
+
+impl Search<'_> {
+    /// Follows the likelihood from a place to its maximum.
+    pub(super) fn ended(&self, from: State, kind: Kind) -> Result<Ended, NotInTime> {
+        let mut state = from;
+        let mut left = f64::INFINITY;
+        for _ in 0..DERIVED {
+            let slopes = self.slopes(&state).ok_or(NotInTime::Lost)?;
+            for number in 0..STEPS {
+                let Some(step) = self.step(&state, &slopes, kind)? else {
+                    break;
+                };
+                let Step { length, .. } = step;
+                left = length;
+                if number == 0 && length < SETTLED && !step.is_drawn {
+                    if !is_told(&step.fit.information) {
+                        return Err(NotInTime::Undetermined);
+                    }
+                    return Ok(Ended {
+                        moved: length,
+                        fit: step.fit,
+                        runs: step.runs,
+                        state: step.state,
+                    });
+                }
+                state = step.state;
+                if length < SMALL {
+                    break;
+                }
+            }
+        }
+        Err(NotInTime::Unsettled(left))
+    }
+
+    /// A step that does not raise χ²; `None` where there is none with these slopes.
+    fn step(
+        &self,
+        from: &State,
+        slopes: &[Slopes],
+        kind: Kind,
+    ) -> Result<Option<Step>, NotInTime> {
+        let mut drawn = 0.0;
+        for _ in 0..TRIALS {
+            let (found, runs) = self.fit(from, slopes, kind, drawn)?;
+            let change = self.model.change(&from.values, &found.values);
+            let pairs = self.model.unknowns.iter().zip(change.iter());
+            let is_short = pairs.fold(true, |is_short, (unknown, change)| match unknown {
+                ResponseUnknown::Slider(_) => is_short && change.abs() < LONGEST,
+                _ => is_short && change.is_finite(),
+            });
+            let trial = is_short.then(|| {
+                let releases = self.releases(from, slopes, &change);
+                State::of(self, found.values, &releases)
+            });
+            if let Some(state) = trial.flatten()
+                && state.chi_squared <= from.chi_squared * (1.0 + ROUNDING)
+            {
+                let along = change.dot(&(&found.information * &change));
+                let length = (along.max(0.0) / found.reduced_chi_squared()).sqrt();
+                return Ok(Some(Step {
+                    state,
+                    fit: found,
+                    runs,
+                    length,
+                    is_drawn: drawn > 0.0,
+                }));
+            }
+            drawn = if drawn > 0.0 { STRONGER * drawn } else { DRAWN };
+        }
+        Ok(None)
+    }
+
+    /// The best joint by the square forms about a place.
+    fn fit(
+        &self,
+        from: &State,
+        slopes: &[Slopes],
+        kind: Kind,
+        drawn: f64,
+    ) -> Result<(Fit, Vec<BackboneRun>), NotInTime> {
+        let all = self.runs.iter().zip(&from.courses).zip(slopes);
+        let runs = all.map(|((run, course), slopes)| {
+            let numbers = (
+                run.grid.samples.saturating_sub(OWN),
+                course.release.displacement_m.abs(),
+            );
+            let rows = Rows::of(&from.values, &slopes.normal(course), numbers);
+            BackboneRun {
+                rows: Some(rows.damped(drawn)),
+                ..run.plain.clone()
+            }
+        });
+        let runs: Vec<BackboneRun> = runs.collect();
+        let backbones: Vec<&BackboneRun> = runs.iter().collect();
+        let data = Data {
+            lines: &[],
+            backbones: &backbones,
+        };
+        let found = fit(self.model, data, self.noise, &from.values, kind);
+        let found = found.map_err(|_| NotInTime::Lost)?;
+        Ok((found, runs))
+    }
+
+    /// Where each record begins after a step of the unknowns.
+    fn releases(&self, from: &State, slopes: &[Slopes], change: &DVector<f64>) -> Vec<Release> {
+        let pairs = from.courses.iter().zip(slopes);
+        let moved = pairs.map(|(course, slopes)| {
+            let residual = slopes.by_release.transpose() * &course.residual;
+            let right = residual + &slopes.between * change;
+            let solved = slopes.of_release.lu().solve(&Vector2::new(right[0], right[1]));
+            let by = solved.unwrap_or_default();
+            release::moved(&course.release, [-by[0], -by[1]])
+        });
+        moved.collect()
+    }
+
+    fn slopes(&self, state: &State) -> Option<Vec<Slopes>> {
+        let pairs = self.runs.iter().zip(&state.courses);
+        pairs
+            .map(|(run, course)| self.slopes_of(&state.values, run, course))
+            .collect()
+    }
+
+    fn slopes_of(&self, values: &Values, run: &Run<'_>, course: &Course) -> Option<Slopes> {
+        let at = |values: &Values, release: Release| {
+            Course::of(values, release, run.record, &run.grid).map(|own| own.residual)
+        };
+        let unknowns = self.model.unknowns.iter().zip(&self.deviations);
+        let columns = unknowns.map(|(&unknown, &deviation)| {
+            let mut sides = [*values; 2];
+            let size = values.clone().place(unknown).map_or(0.0, |place| place.abs());
+            let longest = match unknown {
+                ResponseUnknown::Slider(_) => LONGEST_DIFFERENCE,
+                _ if size > 0.0 => LONGEST_DIFFERENCE * size,
+                _ => f64::INFINITY,
+            };
+            let step = (PART * deviation).min(longest);
+            for (side, sign) in sides.iter_mut().zip([1.0, -1.0]) {
+                *side.place(unknown)? += sign * step;
+            }
+            let [above, below] = sides.map(|side| at(&side, course.release));
+            (step.is_finite() && step > 0.0).then_some(())?;
+            Some((above? - below?) / (2.0 * step))
+        });
+        let columns: Vec<DVector<f64>> = columns.collect::<Option<_>>()?;
+        let [by_displacement, by_time] = release::steps(&course.release, &run.grid);
+        let of_release = [[by_displacement, 0.0], [0.0, by_time]].map(|change| {
+            let [above, below] = [1.0, -1.0].map(|sign| {
+                let moved = release::moved(&course.release, change.map(|own| sign * own));
+                at(values, moved)
+            });
+            Some((above? - below?) / (2.0 * (change[0] + change[1])))
+        });
+        let [Some(by_displacement), Some(by_time)] = of_release else {
+            return None;
+        };
+        Slopes::of(
+            DMatrix::from_columns(&columns),
+            DMatrix::from_columns(&[by_displacement, by_time]),
+        )
+    }
+}
+
+impl Slopes {
+    fn of(by_unknown: DMatrix<f64>, by_release: DMatrix<f64>) -> Option<Self> {
+        let square = by_release.transpose() * &by_release;
+        let of_release = Matrix2::from_fn(|i, j| square[(i, j)]);
+        let between = by_release.transpose() * &by_unknown;
+        let inverse = of_release.try_inverse()?;
+        let inverse = DMatrix::from_fn(2, 2, |i, j| inverse[(i, j)]);
+        // H = JᵀJ − JᵀK (KᵀK)⁻¹ KᵀJ
+        let information =
+            by_unknown.transpose() * &by_unknown - between.transpose() * inverse * &between;
+        let is_finite = information.iter().all(|entry| entry.is_finite());
+        is_finite.then_some(Self {
+            by_unknown,
+            by_release,
+            of_release,
+            between,
+            information,
+        })
+    }
+
+    /// With the residual of a course.
+    fn normal(&self, course: &Course) -> Normal {
+        let of_release = self.by_release.transpose() * &course.residual;
+        let right = Vector2::new(of_release[0], of_release[1]);
+        let solved = self.of_release.lu().solve(&right).unwrap_or_default();
+        let solved = DVector::from_column_slice(&[solved[0], solved[1]]);
+        Normal {
+            information: self.information.clone(),
+            gradient: self.by_unknown.transpose() * &course.residual
+                - self.between.transpose() * &solved,
+            chi_squared: course.chi_squared() - of_release.dot(&solved),
+        }
+    }
+}
+
+/// Whether the information tells every direction of the unknowns.
+fn is_told(information: &DMatrix<f64>) -> bool {
+    let scale = information.diagonal().map(|entry| entry.sqrt().recip());
+    let size = scale.len();
+    let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
+    let is_finite = scaled.iter().all(|entry| entry.is_finite());
+    is_finite && scaled.symmetric_eigenvalues().iter().all(|&value| value > TOLD)
+}

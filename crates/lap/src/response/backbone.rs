@@ -8,9 +8,7 @@ use std::sync::Arc;
 use bolted_joint_dynamics::law::Term;
 
 use super::data::{RESPONSE, Use};
-use super::decay::{
-    Decay, DecayProblem, Following, ReadingErrors, Recorded, Rows, backbone_of,
-};
+use super::decay::{Decay, DecayProblem, Following, ReadingErrors, Recorded, Rows, backbone_of};
 use super::dynamic_stiffness::RelativeMotion;
 use super::fit::Data;
 use super::model::{Model, ResponseUnknown, Values};

@@ -44,6 +44,9 @@ pub(super) struct Candidate {
     pub(super) terms: TermSet,
     /// The passive estimate.
     pub(super) fit: Fit,
+    /// The one before decays were corrected, and before they were followed.
+    first: Fit,
+    corrected: Fit,
     /// The free one, where that is another and active.
     pub(super) free: Option<Fit>,
     pub(super) starts: (usize, usize),
@@ -166,7 +169,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
             backbones: &backbones,
         };
         let before = found.fit.values;
-        let again = |kind| fit::fit(&model, data, &study.noise, &found.fit, kind);
+        let again = |kind| fit::fit_near(&model, data, &study.noise, &found.fit, kind);
         let Ok(fit) = again(Kind::Passive) else {
             return found;
         };
@@ -194,7 +197,9 @@ fn in_time(study: &LapResponseStudy, candidate: Candidate) -> Candidate {
         return candidate;
     }
     let model = candidate.model(study);
-    match fitted(study, &model, &candidate.fit, &measured) {
+    // where reading came to nothing one of the fits before may be nearer
+    let read = [&candidate.fit, &candidate.corrected, &candidate.first];
+    match fitted(study, &model, &read, &measured) {
         Ok(found) => Candidate {
             fit: found.fit,
             free: found.free,
@@ -267,6 +272,7 @@ fn candidate(
     let (noise, known) = (&study.noise, study.known_values());
     let (mut fit, followed, agreeing) =
         start::best(&model, runs, backbones, noise, &known, Kind::Passive)?;
+    let first = fit.clone();
     let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
     let mut own: Vec<BackboneRun> = backbones.iter().map(|run| (*run).clone()).collect();
     for _ in 0..READINGS {
@@ -282,7 +288,7 @@ fn candidate(
             lines: &lines,
             backbones: &read,
         };
-        fit = fit::fit(&model, data, noise, &fit, Kind::Passive)?;
+        fit = fit::fit_near(&model, data, noise, &fit, Kind::Passive)?;
     }
     let read: Vec<&BackboneRun> = own.iter().collect();
     // where no limit holds the passive estimate it is the free one, else the free one is downhill from it
@@ -304,6 +310,8 @@ fn candidate(
         harmonics: 1,
         terms,
         bic: deviance(&fit, noise.is_stated) + unknowns as f64 * count.ln(),
+        first,
+        corrected: fit.clone(),
         fit,
         free,
         starts: (followed, agreeing),

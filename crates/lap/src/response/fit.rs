@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use self::amplitude::{LONGEST, dot, settled, unit};
 use super::dynamic_stiffness::RelativeMotion;
-use super::model::{LineResidual, Model, Values};
+use super::model::{LineResidual, Model, ResponseUnknown, Values};
 use super::passive::{Bound, Limit, Passive};
 use super::step::damped_step;
 use super::study::Noise;
@@ -28,6 +28,8 @@ const MOST_DAMPING: f64 = 1e12;
 /// How often the largest displacement, which the limits go up to, follows the fit, and when it has come to rest.
 const FOLLOWED: usize = 6;
 const FOLLOWS: f64 = 1e-9;
+/// Longest step of the logarithm of a law's number from one reading of decays to the next.
+const LONGEST_OF_LAW: f64 = 1.0;
 
 /// Whether an estimate may be active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,6 +133,30 @@ pub(super) fn glanced(
     let start = Start::from(start);
     let largest_m = start.largest_m(model, data);
     fit_up_to(model, data, noise, start, (kind, largest_m, FIRST_STEPS))
+}
+
+/// The fit again from one before that data were made for, by a step that is not so long that they would no longer hold.
+///
+/// What decays are corrected by is that of the fit before. A law's numbers that a reading tells little of would run away.
+pub(super) fn fit_near(
+    model: &Model,
+    data: Data<'_>,
+    noise: &Noise,
+    before: &Fit,
+    kind: Kind,
+) -> Result<Fit, LapError> {
+    let found = fit(model, data, noise, before, kind)?;
+    let change = model.change(&before.values, &found.values);
+    let unknowns = model.unknowns.iter().zip(change.iter());
+    let of_law = unknowns.filter(|(unknown, _)| matches!(unknown, ResponseUnknown::Slider(_)));
+    let longest = of_law.fold(0.0_f64, |most, (_, change)| most.max(change.abs()));
+    if longest <= LONGEST_OF_LAW {
+        return Ok(found);
+    }
+    let values = model.moved(&before.values, &(change * (LONGEST_OF_LAW / longest)));
+    let start = Start::from(&values);
+    let largest_m = start.largest_m(model, data);
+    fit_up_to(model, data, noise, start, (kind, largest_m, 0))
 }
 
 fn fit_up_to(

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::data::{SineLine, wrapped};
 use super::dynamic_stiffness::RelativeMotion;
-use super::slider::{SliderParameter, SliderValues};
+use super::slider::{Slider, SliderParameter, SliderValues};
 use super::study::{Noise, Place};
 use super::terms::{self, TermSet};
 
@@ -133,6 +133,15 @@ impl Values {
         0.5 * self.support_damping + self.joint_damping
     }
 
+    /// The same beside Iwan's law with all parameters where none of them is far from those that a motion tells; `None` of others.
+    pub(super) fn moderate(&self) -> Option<Self> {
+        let slider = self.slider.filter(|slider| slider.slider == Slider::Iwan)?;
+        Some(Self {
+            slider: Some(slider.moderate()),
+            ..*self
+        })
+    }
+
     /// The value of an unknown, zero of what is not there.
     #[must_use]
     pub fn of(&self, unknown: ResponseUnknown) -> f64 {
@@ -202,6 +211,9 @@ impl Model {
             if let Some(place) = moved.place(*unknown) {
                 *place += change;
             }
+        }
+        if let Some(slider) = &mut moved.slider {
+            slider.keep_in_range();
         }
         moved
     }

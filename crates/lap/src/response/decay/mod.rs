@@ -23,8 +23,8 @@ use self::stretch::{Part, Point, Stretch, covariance};
 use super::backbone::BackboneLine;
 
 pub(super) use self::errors::ReadingErrors;
-pub(super) use self::in_time::{Rows, fitted};
 pub use self::in_time::{Coloured, InTime, NotInTime};
+pub(super) use self::in_time::{Rows, fitted};
 pub(super) use self::recorded::{Quantity, Recorded};
 pub(super) use self::simulated::{Following, beside, corrected, followed};
 

@@ -5,8 +5,7 @@
 use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::{
-    Body, DofLaws, Lap, LapLoads, LapMoment, LapState, LapStepper, Linear, Motion,
-    law::JointLaw,
+    Body, DofLaws, Lap, LapLoads, LapMoment, LapState, LapStepper, Linear, Motion, law::JointLaw,
 };
 
 use super::recorded::{Quantity, Recorded};
@@ -114,7 +113,10 @@ pub(super) fn sampled(
         };
         samples.push(record.share * value);
     }
-    samples.iter().all(|value| value.is_finite()).then_some(samples)
+    samples
+        .iter()
+        .all(|value| value.is_finite())
+        .then_some(samples)
 }
 
 impl Moving {
@@ -203,10 +205,7 @@ fn lap(values: &Values, factor: f64) -> Lap<1> {
         None => terms,
     };
     Lap {
-        joint: JointLaw {
-            linear,
-            on: [laws],
-        },
+        joint: JointLaw { linear, on: [laws] },
         a: body,
         b: body,
     }

@@ -12,12 +12,12 @@ mod whiteness;
 use std::f64::consts::TAU;
 use std::fmt;
 
-use self::search::{Ended, Run, Search, State};
+use self::search::{Run, Search, State};
 use super::motion::{Grid, Release, sampled};
 use super::recorded::Recorded;
 use crate::response::backbone::BackboneRun;
 use crate::response::fit::{Fit, Kind};
-use crate::response::model::Model;
+use crate::response::model::{Model, Values};
 use crate::response::passive::Passive;
 use crate::response::study::{LapResponseStudy, NoiseIs};
 use crate::response::told::{Searched, by_searched};
@@ -31,6 +31,10 @@ const MOST_STEPS: usize = 400_000;
 const FADED: f64 = 0.1;
 /// Fewest samples of a record.
 const FEWEST: usize = 200;
+/// Mean square of a residual, in that of the noise, below which a start is near the end.
+const NEAR: f64 = 2.0;
+/// Shares of the records that others are brought near by.
+const SHARES: [f64; 5] = [0.1, 0.2, 0.35, 0.6, 1.0];
 
 /// How free decays went into an estimate.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,11 +106,11 @@ pub(in crate::response) struct Found {
     pub(in crate::response) runs: Vec<BackboneRun>,
 }
 
-/// Fits a model to the samples of decays, from what was read of them.
+/// Fits a model to the samples of decays, from fits to what was read of them: the last one first.
 pub(in crate::response) fn fitted(
     study: &LapResponseStudy,
     model: &Model,
-    read: &Fit,
+    read: &[&Fit],
     runs: &[&BackboneRun],
 ) -> Result<Found, NotInTime> {
     if study.noise.is_of_curves {
@@ -115,64 +119,137 @@ pub(in crate::response) fn fitted(
     if study.noise_is() != NoiseIs::OfRecords {
         return Err(NotInTime::OtherData);
     }
-    let passive = Passive {
-        model,
-        amplitude_m: read.amplitude_m,
-    };
-    let values = passive.within(read.values);
-    let mut followed = Vec::new();
-    let mut releases = Vec::new();
-    for run in runs {
-        let record = run.recorded.as_deref().ok_or(NotInTime::OtherData)?;
-        if record.has_band {
-            return Err(NotInTime::Band(run.name.clone()));
+    let moderate = read.iter().filter_map(|read| read.values.moderate());
+    let from = read.iter().map(|read| read.values).chain(moderate);
+    let mut reason = NotInTime::Lost;
+    for values in from {
+        let start = match Start::of(study, model, values, runs) {
+            Err(NotInTime::Lost) => continue,
+            other => other?.brought_near(),
+        };
+        if !start.is_near() {
+            continue;
         }
-        let (grid, release) = begun(&values, run, record)?;
-        followed.push(Run {
-            record,
-            grid,
-            plain: plain(run),
-        });
-        releases.push(release);
+        match start.ended() {
+            // another start may come to an end
+            Err(
+                problem @ (NotInTime::Unsettled(_) | NotInTime::Undetermined | NotInTime::Lost),
+            ) => reason = problem,
+            ended => return ended,
+        }
     }
-    let information = read.information.diagonal();
-    let search = Search {
-        model,
-        noise: &study.noise,
-        runs: followed,
-        deviations: information.iter().map(|own| own.sqrt().recip()).collect(),
-    };
-    let from = |values| State::of(&search, values, &releases).ok_or(NotInTime::Lost);
-    let held = search.ended(from(values)?, Kind::Passive)?;
-    // errors and noise are those of the estimate that is free to be active, where limits hold the other
-    let free = match held.fit.at_limits.is_empty() {
-        true => None,
-        false => Some(search.ended(from(read.values)?, Kind::Free)?),
-    };
-    let base = free.as_ref().unwrap_or(&held);
-    let left = search.runs.iter().zip(&base.state.courses);
-    let left: Vec<_> = left
-        .map(|(run, course)| (run.record, &run.grid, course))
-        .collect();
-    let coloured = whiteness::coloured(&base.fit.values, &left, model.unknowns.len());
-    if let Some(coloured) = coloured {
-        return Err(NotInTime::Coloured(coloured));
+    Err(reason)
+}
+
+/// Where a search over samples may start.
+struct Start<'a> {
+    search: Search<'a>,
+    from: State,
+}
+
+impl<'a> Start<'a> {
+    fn of(
+        study: &'a LapResponseStudy,
+        model: &'a Model,
+        values: Values,
+        runs: &[&'a BackboneRun],
+    ) -> Result<Self, NotInTime> {
+        let largest_m = runs.iter().map(|run| run.largest_m()).fold(0.0, f64::max);
+        let passive = Passive {
+            model,
+            amplitude_m: largest_m,
+        };
+        let values = passive.within(values);
+        let mut followed = Vec::new();
+        let mut releases = Vec::new();
+        for run in runs {
+            let record = run.recorded.as_deref().ok_or(NotInTime::OtherData)?;
+            if record.has_band {
+                return Err(NotInTime::Band(run.name.clone()));
+            }
+            let (grid, release) = begun(&values, run, record)?;
+            followed.push(Run {
+                record,
+                grid,
+                plain: plain(run),
+            });
+            releases.push(release);
+        }
+        let search = Search {
+            model,
+            noise: &study.noise,
+            runs: followed,
+        };
+        let from = State::of(&search, values, &releases).ok_or(NotInTime::Lost)?;
+        Ok(Self { search, from })
     }
-    let all = [Some(&held), free.as_ref()];
-    if !all.iter().flatten().all(|ended| is_finite(model, &ended.fit)) {
-        return Err(NotInTime::NotFinite);
+
+    /// Whether its motion is that of the records up to a few times the noise.
+    fn is_near(&self) -> bool {
+        self.from.chi_squared < NEAR * self.search.samples() as f64
     }
-    let Ended {
-        fit, moved, runs, ..
-    } = held;
-    let moved = free.as_ref().map_or(moved, |free| moved.max(free.moved));
-    let free = free.map(|free| free.fit);
-    Ok(Found {
-        free: free.filter(|free| free.chi_squared < fit.chi_squared),
-        fit,
-        moved,
-        runs,
-    })
+
+    /// The joint that the samples are most likely of, from here.
+    fn ended(&self) -> Result<Found, NotInTime> {
+        let Self { search, from } = self;
+        let held = search.ended(from.clone(), Kind::Passive)?;
+        // errors and noise are those of the estimate that is free to be active, where limits hold the other
+        let free = match held.fit.at_limits.is_empty() {
+            true => None,
+            false => Some(search.ended(from.clone(), Kind::Free)?),
+        };
+        let base = free.as_ref().unwrap_or(&held);
+        let left = search.runs.iter().zip(&base.state.courses);
+        let left: Vec<_> = left
+            .map(|(run, course)| (run.record, &run.grid, course))
+            .collect();
+        let unknowns = search.model.unknowns.len();
+        if let Some(coloured) = whiteness::coloured(&base.state.values, &left, unknowns) {
+            return Err(NotInTime::Coloured(coloured));
+        }
+        let mut all = std::iter::once(&held).chain(&free);
+        if !all.all(|ended| is_finite(search.model, &ended.fit)) {
+            return Err(NotInTime::NotFinite);
+        }
+        let moved = free
+            .as_ref()
+            .map_or(held.moved, |free| held.moved.max(free.moved));
+        let free = free.map(|free| free.fit);
+        Ok(Found {
+            free: free.filter(|free| free.chi_squared < held.fit.chi_squared),
+            fit: held.fit,
+            moved,
+            runs: held.runs,
+        })
+    }
+
+    /// The start brought near by the first samples, then by more and more of them: a phase that has run ahead by half a turn
+    /// would draw a search the wrong way.
+    fn brought_near(mut self) -> Self {
+        if self.is_near() {
+            return self;
+        }
+        for share in SHARES {
+            let part = self.search.up_to(share);
+            let releases: Vec<Release> = self
+                .from
+                .courses
+                .iter()
+                .map(|course| course.release)
+                .collect();
+            let Some(from) = State::of(&part, self.from.values, &releases) else {
+                return self;
+            };
+            let better = part.improved(from);
+            let releases: Vec<Release> =
+                better.courses.iter().map(|course| course.release).collect();
+            match State::of(&self.search, better.values, &releases) {
+                Some(from) => self.from = from,
+                None => return self,
+            }
+        }
+        self
+    }
 }
 
 /// A run without what is of its reading alone.
@@ -191,7 +268,7 @@ fn plain(run: &BackboneRun) -> BackboneRun {
 
 /// Which samples of a record are followed, and where it began.
 fn begun(
-    values: &crate::response::model::Values,
+    values: &Values,
     run: &BackboneRun,
     record: &Recorded,
 ) -> Result<(Grid, Release), NotInTime> {

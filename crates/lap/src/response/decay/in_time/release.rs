@@ -66,12 +66,7 @@ pub(super) fn moved(release: &Release, change: [f64; 2]) -> Release {
 }
 
 /// Where a record began that falls at this rate (1/s) at first: `None` where that is not found.
-pub(super) fn found(
-    values: &Values,
-    record: &Recorded,
-    grid: &Grid,
-    rate: f64,
-) -> Option<Release> {
+pub(super) fn found(values: &Values, record: &Recorded, grid: &Grid, rate: f64) -> Option<Release> {
     let mut release = guessed(record, grid.omega, rate)?;
     for periods in IMPROVED_BY {
         let samples = (periods * TAU / grid.omega / record.interval_s) as usize;
@@ -106,7 +101,11 @@ fn guessed(record: &Recorded, omega: f64, rate: f64) -> Option<Release> {
     let half_turns = ((latest + displacement.arg()) / PI).floor();
     let angle = half_turns * PI - displacement.arg();
     let time_s = angle / omega;
-    let sign = if half_turns.rem_euclid(2.0) < 0.5 { 1.0 } else { -1.0 };
+    let sign = if half_turns.rem_euclid(2.0) < 0.5 {
+        1.0
+    } else {
+        -1.0
+    };
     Some(Release {
         displacement_m: sign * displacement.norm() * (-rate * time_s).exp(),
         time_s,

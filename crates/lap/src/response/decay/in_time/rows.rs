@@ -40,10 +40,13 @@ pub(super) struct Normal {
 impl Rows {
     /// About these values; `released_m` is the displacement that the motion begins at.
     pub(super) fn of(at: &Values, normal: &Normal, (count, released_m): (usize, f64)) -> Self {
-        let scale = normal.information.diagonal().map(|entry| match entry > 0.0 {
-            true => entry.sqrt().recip(),
-            false => 1.0,
-        });
+        let scale = normal
+            .information
+            .diagonal()
+            .map(|entry| match entry > 0.0 {
+                true => entry.sqrt().recip(),
+                false => 1.0,
+            });
         let size = scale.len();
         let scaled = DMatrix::from_fn(size, size, |i, j| {
             normal.information[(i, j)] * scale[i] * scale[j]

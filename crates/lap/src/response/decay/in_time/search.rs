@@ -3,6 +3,7 @@
 //! Each step is a fit to the square forms of the records, within the limits of a passive joint. Derivatives are central
 //! differences, and hold for a few steps.
 
+use bolted_joint_dynamics::law::Term;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::NotInTime;
@@ -16,29 +17,38 @@ use crate::response::model::{Model, ResponseUnknown, Values};
 use crate::response::study::Noise;
 
 /// How often derivatives are taken, and steps with the same ones.
-const DERIVED: usize = 8;
+const DERIVED: usize = 30;
 const STEPS: usize = 6;
 /// Standard deviations of a step that is none with derivatives of the same place, and with older ones.
 const SETTLED: f64 = 0.05;
 const SMALL: f64 = 0.02;
-/// Trials of a step, how strongly the second one is drawn back, and by how much more each that follows.
-const TRIALS: usize = 10;
-const DRAWN: f64 = 1e-9;
-const STRONGER: f64 = 10.0;
+/// Trials of a step, how strongly the first one is drawn back that is, and by how much more each that follows.
+const TRIALS: usize = 14;
+const DRAWN: f64 = 1e-8;
+const STRONGER: f64 = 8.0;
+/// Steps that bring a start near, how strongly they are drawn back, and the step in standard deviations that is short enough.
+const IMPROVEMENTS: usize = 10;
+const DRAWN_AT_FIRST: f64 = 1e-2;
+const DRAWN_AT_LAST: f64 = 1e-5;
+const ROUGH: f64 = 0.5;
 /// Longest step of the logarithm of a law's number.
 const LONGEST: f64 = 0.7;
 /// Part of χ² that is rounding.
 const ROUNDING: f64 = 1e-10;
-/// Step of a difference in what the other unknowns being known would leave uncertain, and the longest: of a law's logarithms,
-/// and as part of others.
-const PART: f64 = 0.1;
-const LONGEST_DIFFERENCE: f64 = 0.01;
+/// First step of a difference: of a law's logarithms, and as part of others.
+const DIFFERENCE: f64 = 1e-3;
+/// Change of a residual, in standard deviations of one number, beyond which a difference is taken anew over less, what it then
+/// is, and how often.
+const FAR: f64 = 2.0;
+const NEAR: f64 = 0.3;
+const ANEW: usize = 5;
 /// Least eigenvalue of the scaled information that is more than rounding of differences.
 const TOLD: f64 = 1e-9;
 /// Numbers of each record that are its own: displacement and time of the release, and the offset.
 pub(super) const OWN: usize = 3;
 
 /// A record that is followed.
+#[derive(Clone)]
 pub(super) struct Run<'a> {
     pub(super) record: &'a Recorded,
     pub(super) grid: Grid,
@@ -47,10 +57,11 @@ pub(super) struct Run<'a> {
 }
 
 /// A place among the unknowns.
+#[derive(Clone)]
 pub(super) struct State {
     pub(super) values: Values,
     pub(super) courses: Vec<Course>,
-    chi_squared: f64,
+    pub(super) chi_squared: f64,
 }
 
 /// Where a search ended.
@@ -67,8 +78,6 @@ pub(super) struct Search<'a> {
     pub(super) model: &'a Model,
     pub(super) noise: &'a Noise,
     pub(super) runs: Vec<Run<'a>>,
-    /// What the other unknowns being known would leave uncertain of each, as read.
-    pub(super) deviations: Vec<f64>,
 }
 
 /// How the residual of a record grows with the unknowns and with its release.
@@ -95,9 +104,8 @@ struct Step {
 impl State {
     pub(super) fn of(search: &Search<'_>, values: Values, releases: &[Release]) -> Option<Self> {
         let pairs = search.runs.iter().zip(releases);
-        let courses = pairs.map(|(run, release)| {
-            Course::of(&values, *release, run.record, &run.grid)
-        });
+        let courses =
+            pairs.map(|(run, release)| Course::of(&values, *release, run.record, &run.grid));
         let courses: Vec<Course> = courses.collect::<Option<_>>()?;
         let chi_squared = courses.iter().map(Course::chi_squared).sum();
         Some(Self {
@@ -109,14 +117,55 @@ impl State {
 }
 
 impl Search<'_> {
+    /// All samples that are followed.
+    pub(super) fn samples(&self) -> usize {
+        self.runs.iter().map(|run| run.grid.samples).sum()
+    }
+
+    /// The search over a share of the samples, the first ones of each record.
+    pub(super) fn up_to(&self, share: f64) -> Self {
+        let runs = self.runs.iter().map(|run| Run {
+            grid: run.grid.up_to((share * run.grid.samples as f64) as usize),
+            ..run.clone()
+        });
+        Self {
+            model: self.model,
+            noise: self.noise,
+            runs: runs.collect(),
+        }
+    }
+
+    /// A better place, after a few steps that are drawn back: what the samples do not tell stays as it is.
+    pub(super) fn improved(&self, from: State) -> State {
+        let mut state = from;
+        let mut drawn = DRAWN_AT_FIRST;
+        for _ in 0..IMPROVEMENTS {
+            let Some(slopes) = self.slopes(&state) else {
+                break;
+            };
+            let Ok(Some(step)) = self.step(&state, &slopes, Kind::Passive, &mut drawn) else {
+                break;
+            };
+            let length = step.length;
+            state = step.state;
+            if length < ROUGH {
+                break;
+            }
+            drawn = (drawn / STRONGER).max(DRAWN_AT_LAST);
+        }
+        state
+    }
+
     /// Follows the likelihood from a place to its maximum.
     pub(super) fn ended(&self, from: State, kind: Kind) -> Result<Ended, NotInTime> {
         let mut state = from;
         let mut left = f64::INFINITY;
+        let mut drawn = 0.0;
         for _ in 0..DERIVED {
             let slopes = self.slopes(&state).ok_or(NotInTime::Lost)?;
             for number in 0..STEPS {
-                let Some(step) = self.step(&state, &slopes, kind)? else {
+                let Some(step) = self.step(&state, &slopes, kind, &mut drawn)? else {
+                    drawn = 0.0;
                     break;
                 };
                 let Step { length, .. } = step;
@@ -133,6 +182,10 @@ impl Search<'_> {
                     });
                 }
                 state = step.state;
+                drawn = match drawn / (STRONGER * STRONGER) {
+                    less if less < DRAWN => 0.0,
+                    less => less,
+                };
                 if length < SMALL {
                     break;
                 }
@@ -147,10 +200,10 @@ impl Search<'_> {
         from: &State,
         slopes: &[Slopes],
         kind: Kind,
+        drawn: &mut f64,
     ) -> Result<Option<Step>, NotInTime> {
-        let mut drawn = 0.0;
         for _ in 0..TRIALS {
-            let (found, runs) = self.fit(from, slopes, kind, drawn)?;
+            let (found, runs) = self.fit(from, slopes, kind, *drawn)?;
             let change = self.model.change(&from.values, &found.values);
             let pairs = self.model.unknowns.iter().zip(change.iter());
             let is_short = pairs.fold(true, |is_short, (unknown, change)| match unknown {
@@ -171,10 +224,14 @@ impl Search<'_> {
                     fit: found,
                     runs,
                     length,
-                    is_drawn: drawn > 0.0,
+                    is_drawn: *drawn > 0.0,
                 }));
             }
-            drawn = if drawn > 0.0 { STRONGER * drawn } else { DRAWN };
+            *drawn = if *drawn > 0.0 {
+                STRONGER * *drawn
+            } else {
+                DRAWN
+            };
         }
         Ok(None)
     }
@@ -216,7 +273,10 @@ impl Search<'_> {
         let moved = pairs.map(|(course, slopes)| {
             let residual = slopes.by_release.transpose() * &course.residual;
             let right = residual + &slopes.between * change;
-            let solved = slopes.of_release.lu().solve(&Vector2::new(right[0], right[1]));
+            let solved = slopes
+                .of_release
+                .lu()
+                .solve(&Vector2::new(right[0], right[1]));
             let by = solved.unwrap_or_default();
             release::moved(&course.release, [-by[0], -by[1]])
         });
@@ -234,22 +294,34 @@ impl Search<'_> {
         let at = |values: &Values, release: Release| {
             Course::of(values, release, run.record, &run.grid).map(|own| own.residual)
         };
-        let unknowns = self.model.unknowns.iter().zip(&self.deviations);
-        let columns = unknowns.map(|(&unknown, &deviation)| {
-            let mut sides = [*values; 2];
-            let size = values.clone().place(unknown).map_or(0.0, |place| place.abs());
-            let longest = match unknown {
-                ResponseUnknown::Slider(_) => LONGEST_DIFFERENCE,
-                _ if size > 0.0 => LONGEST_DIFFERENCE * size,
-                _ => f64::INFINITY,
+        let columns = self.model.unknowns.iter().map(|&unknown| {
+            let size = values
+                .clone()
+                .place(unknown)
+                .map_or(0.0, |place| place.abs());
+            let mut step = match unknown {
+                ResponseUnknown::Slider(_) => DIFFERENCE,
+                ResponseUnknown::Term(term) => DIFFERENCE * size_of(values, course, term).max(size),
+                ResponseUnknown::JointDamping | ResponseUnknown::SupportDamping => {
+                    DIFFERENCE * (1e-3 * values.mass * run.grid.omega).max(size)
+                }
+                _ => DIFFERENCE * size,
             };
-            let step = (PART * deviation).min(longest);
-            for (side, sign) in sides.iter_mut().zip([1.0, -1.0]) {
-                *side.place(unknown)? += sign * step;
+            for _ in 0..ANEW {
+                (step.is_finite() && step > 0.0).then_some(())?;
+                let mut sides = [*values; 2];
+                for (side, sign) in sides.iter_mut().zip([1.0, -1.0]) {
+                    *side.place(unknown)? += sign * step;
+                }
+                let [above, below] = sides.map(|side| at(&side, course.release));
+                let change = above? - below?;
+                let size = change.norm();
+                if size < FAR {
+                    return Some(change / (2.0 * step));
+                }
+                step *= NEAR / size;
             }
-            let [above, below] = sides.map(|side| at(&side, course.release));
-            (step.is_finite() && step > 0.0).then_some(())?;
-            Some((above? - below?) / (2.0 * step))
+            None
         });
         let columns: Vec<DVector<f64>> = columns.collect::<Option<_>>()?;
         let [by_displacement, by_time] = release::steps(&course.release, &run.grid);
@@ -268,6 +340,20 @@ impl Search<'_> {
             DMatrix::from_columns(&[by_displacement, by_time]),
         )
     }
+}
+
+/// What a term would be that makes a thousandth of the load or of the damping of the motion.
+fn size_of(values: &Values, course: &Course, term: Term) -> f64 {
+    let part = match term.is_damper() {
+        false => values.relative_stiffness(),
+        true => values.relative_stiffness().abs().sqrt() * values.mass.sqrt(),
+    };
+    1e-3 * part.abs()
+        / course
+            .release
+            .displacement_m
+            .abs()
+            .powi(term.amplitude_power())
 }
 
 impl Slopes {
@@ -311,5 +397,9 @@ fn is_told(information: &DMatrix<f64>) -> bool {
     let size = scale.len();
     let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
     let is_finite = scaled.iter().all(|entry| entry.is_finite());
-    is_finite && scaled.symmetric_eigenvalues().iter().all(|&value| value > TOLD)
+    is_finite
+        && scaled
+            .symmetric_eigenvalues()
+            .iter()
+            .all(|&value| value > TOLD)
 }

@@ -60,8 +60,7 @@ struct Squares {
 
 impl Squares {
     fn is_chance(self) -> bool {
-        self.degrees_of_freedom == 0
-            || chi_squared_tail(self.sum, self.degrees_of_freedom) > CHANCE
+        self.degrees_of_freedom == 0 || chi_squared_tail(self.sum, self.degrees_of_freedom) > CHANCE
     }
 
     fn and(self, other: Self) -> Self {

@@ -9,6 +9,7 @@ mod rows;
 mod search;
 mod whiteness;
 
+use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -27,6 +28,9 @@ pub use self::whiteness::Coloured;
 
 /// Steps of a motion at most.
 const MOST_STEPS: usize = 400_000;
+/// Motions of a search at most, and steps of them.
+const MOST_MOTIONS: usize = 1500;
+const MOST_WORK: usize = 50_000_000;
 /// Samples of a motion below this part of the noise say nothing.
 const FADED: f64 = 0.1;
 /// Fewest samples of a record.
@@ -121,9 +125,12 @@ pub(in crate::response) fn fitted(
     }
     let moderate = read.iter().filter_map(|read| read.values.moderate());
     let from = read.iter().map(|read| read.values).chain(moderate);
+    let samples = runs.iter().filter_map(|run| run.recorded.as_deref());
+    let longest = samples.fold(0, |most, record| most.max(record.values.len()));
+    let left = Cell::new(MOST_WORK.min(MOST_MOTIONS * runs.len() * longest));
     let mut reason = NotInTime::Lost;
     for values in from {
-        let start = match Start::of(study, model, values, runs) {
+        let start = match Start::of((study, model), values, runs, &left) {
             Err(NotInTime::Lost) => continue,
             other => other?.brought_near(),
         };
@@ -131,11 +138,9 @@ pub(in crate::response) fn fitted(
             continue;
         }
         match start.ended() {
-            // another start may come to an end
-            Err(
-                problem @ (NotInTime::Unsettled(_) | NotInTime::Undetermined | NotInTime::Lost),
-            ) => reason = problem,
-            ended => return ended,
+            Ok(found) => return Ok(found),
+            // another start may come to a better end
+            Err(problem) => reason = problem,
         }
     }
     Err(reason)
@@ -149,10 +154,10 @@ struct Start<'a> {
 
 impl<'a> Start<'a> {
     fn of(
-        study: &'a LapResponseStudy,
-        model: &'a Model,
+        (study, model): (&'a LapResponseStudy, &'a Model),
         values: Values,
         runs: &[&'a BackboneRun],
+        left: &'a Cell<usize>,
     ) -> Result<Self, NotInTime> {
         let largest_m = runs.iter().map(|run| run.largest_m()).fold(0.0, f64::max);
         let passive = Passive {
@@ -179,6 +184,7 @@ impl<'a> Start<'a> {
             model,
             noise: &study.noise,
             runs: followed,
+            left,
         };
         let from = State::of(&search, values, &releases).ok_or(NotInTime::Lost)?;
         Ok(Self { search, from })

@@ -3,6 +3,8 @@
 //! Each step is a fit to the square forms of the records, within the limits of a passive joint. Derivatives are central
 //! differences, and hold for a few steps.
 
+use std::cell::Cell;
+
 use bolted_joint_dynamics::law::Term;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -17,15 +19,20 @@ use crate::response::model::{Model, ResponseUnknown, Values};
 use crate::response::study::Noise;
 
 /// How often derivatives are taken, and steps with the same ones.
-const DERIVED: usize = 30;
+const DERIVED: usize = 20;
 const STEPS: usize = 6;
 /// Standard deviations of a step that is none with derivatives of the same place, and with older ones.
 const SETTLED: f64 = 0.05;
 const SMALL: f64 = 0.02;
 /// Trials of a step, how strongly the first one is drawn back that is, and by how much more each that follows.
-const TRIALS: usize = 14;
-const DRAWN: f64 = 1e-8;
-const STRONGER: f64 = 8.0;
+const TRIALS: usize = 8;
+const DRAWN: f64 = 1e-6;
+const STRONGER: f64 = 30.0;
+/// Length of such a step beyond which derivatives are taken anew.
+const DRAWN_FAR: f64 = 0.3;
+/// By how much χ² falls from one taking of derivatives to the next where nothing more is to be had, in its value per degree of
+/// freedom. A law with a corner that the motion just reaches has no smooth likelihood: there a step may be refused that is short.
+const AT_REST: f64 = 0.01;
 /// Steps that bring a start near, how strongly they are drawn back, and the step in standard deviations that is short enough.
 const IMPROVEMENTS: usize = 10;
 const DRAWN_AT_FIRST: f64 = 1e-2;
@@ -78,6 +85,8 @@ pub(super) struct Search<'a> {
     pub(super) model: &'a Model,
     pub(super) noise: &'a Noise,
     pub(super) runs: Vec<Run<'a>>,
+    /// Steps of motions that may still be taken.
+    pub(super) left: &'a Cell<usize>,
 }
 
 /// How the residual of a record grows with the unknowns and with its release.
@@ -104,8 +113,7 @@ struct Step {
 impl State {
     pub(super) fn of(search: &Search<'_>, values: Values, releases: &[Release]) -> Option<Self> {
         let pairs = search.runs.iter().zip(releases);
-        let courses =
-            pairs.map(|(run, release)| Course::of(&values, *release, run.record, &run.grid));
+        let courses = pairs.map(|(run, release)| search.course(&values, *release, run));
         let courses: Vec<Course> = courses.collect::<Option<_>>()?;
         let chi_squared = courses.iter().map(Course::chi_squared).sum();
         Some(Self {
@@ -113,6 +121,21 @@ impl State {
             courses,
             chi_squared,
         })
+    }
+}
+
+impl Ended {
+    /// Where the samples tell all unknowns apart.
+    fn told(fit: Fit, state: State, runs: Vec<BackboneRun>, moved: f64) -> Result<Self, NotInTime> {
+        match is_told(&fit.information) {
+            true => Ok(Self {
+                fit,
+                state,
+                moved,
+                runs,
+            }),
+            false => Err(NotInTime::Undetermined),
+        }
     }
 }
 
@@ -132,7 +155,15 @@ impl Search<'_> {
             model: self.model,
             noise: self.noise,
             runs: runs.collect(),
+            left: self.left,
         }
+    }
+
+    /// The motion of a run, as long as there are steps left.
+    fn course(&self, values: &Values, release: Release, run: &Run<'_>) -> Option<Course> {
+        self.left
+            .set(self.left.get().checked_sub(run.grid.steps())?);
+        Course::of(values, release, run.record, &run.grid)
     }
 
     /// A better place, after a few steps that are drawn back: what the samples do not tell stays as it is.
@@ -163,35 +194,42 @@ impl Search<'_> {
         let mut drawn = 0.0;
         for _ in 0..DERIVED {
             let slopes = self.slopes(&state).ok_or(NotInTime::Lost)?;
+            let before = state.chi_squared;
             for number in 0..STEPS {
                 let Some(step) = self.step(&state, &slopes, kind, &mut drawn)? else {
                     drawn = 0.0;
                     break;
                 };
-                let Step { length, .. } = step;
-                left = length;
-                if number == 0 && length < SETTLED && !step.is_drawn {
-                    if !is_told(&step.fit.information) {
-                        return Err(NotInTime::Undetermined);
-                    }
-                    return Ok(Ended {
-                        moved: length,
-                        fit: step.fit,
-                        runs: step.runs,
-                        state: step.state,
-                    });
+                left = step.length;
+                if number == 0 && left < SETTLED && !step.is_drawn {
+                    return Ended::told(step.fit, step.state, step.runs, left);
                 }
                 state = step.state;
                 drawn = match drawn / (STRONGER * STRONGER) {
                     less if less < DRAWN => 0.0,
                     less => less,
                 };
-                if length < SMALL {
+                if left < SMALL || step.is_drawn && left > DRAWN_FAR {
                     break;
                 }
             }
+            let gain = (before - state.chi_squared) / self.reduced(&state);
+            if gain < AT_REST {
+                let (found, runs) = self.fit(&state, &slopes, kind, 0.0)?;
+                let found = Fit {
+                    values: state.values,
+                    chi_squared: state.chi_squared,
+                    ..found
+                };
+                return Ended::told(found, state, runs, gain.max(0.0).sqrt());
+            }
         }
         Err(NotInTime::Unsettled(left))
+    }
+
+    /// χ² per number.
+    fn reduced(&self, state: &State) -> f64 {
+        state.chi_squared / self.samples().max(1) as f64
     }
 
     /// A step that does not raise χ²; `None` where there is none with these slopes.
@@ -292,7 +330,7 @@ impl Search<'_> {
 
     fn slopes_of(&self, values: &Values, run: &Run<'_>, course: &Course) -> Option<Slopes> {
         let at = |values: &Values, release: Release| {
-            Course::of(values, release, run.record, &run.grid).map(|own| own.residual)
+            self.course(values, release, run).map(|own| own.residual)
         };
         let columns = self.model.unknowns.iter().map(|&unknown| {
             let size = values

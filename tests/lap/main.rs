@@ -8,6 +8,7 @@
 
 mod brake_reuss;
 mod decays;
+mod decays_in_time;
 mod free_vibration;
 mod oscillator;
 mod passive;

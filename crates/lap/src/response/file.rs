@@ -6,6 +6,7 @@ use bolted_joint_dynamics::law::Term;
 use nalgebra::DVector;
 
 use super::data::Use;
+use super::decay::InTime;
 use super::model::{ResponseUnknown, Values};
 use super::prediction::Expected;
 use super::result::{Estimate, LapResponse};
@@ -61,7 +62,7 @@ impl LapResponse {
                 b: body,
             }),
             uncertainty: self.uncertainty(study),
-            validity: Some(validity(study)),
+            validity: Some(self.validity(study)),
             residual: Some(self.residual(study)),
             provenance: Some(self.provenance.clone()),
         }
@@ -111,6 +112,11 @@ impl LapResponse {
             true => format!(", raised {:.2} times by the residual", self.inflation),
             false => String::new(),
         };
+        let of_decays = match &self.in_time {
+            InTime::NoDecay => String::new(),
+            InTime::Fitted => ", decays sample by sample".to_owned(),
+            InTime::Read(reason) => format!(", decays as they are read ({reason})"),
+        };
         let no_cure = match self.is_far_from_noise(study) {
             true => format!("; {NO_CURE}"),
             false => String::new(),
@@ -133,7 +139,7 @@ impl LapResponse {
                 damping: entry(ResponseUnknown::JointDamping),
             },
             basis: format!(
-                "information matrix of the maximum-likelihood estimate with {noise}{raised}{no_cure}; {}",
+                "information matrix of the maximum-likelihood estimate with {noise}{raised}{of_decays}{no_cure}; {}",
                 others.collect::<Vec<_>>().join(", ")
             ),
             correlation: Some(Correlation {
@@ -275,37 +281,41 @@ impl LapResponse {
         });
         residuals.collect()
     }
-}
 
-fn validity(study: &LapResponseStudy) -> Validity {
-    let runs = || study.sines.iter().filter(|run| run.used_for == Use::Fit);
-    let backbones = || {
-        study
-            .backbones
-            .iter()
-            .filter(|run| run.used_for == Use::Fit)
-    };
-    let of_runs = runs().flat_map(|run| {
-        run.lines
-            .iter()
-            .map(|line| (line.omega, line.displacement_m))
-    });
-    let of_backbones =
-        backbones().flat_map(|run| run.lines.iter().map(|line| (line.omega, line.amplitude_m)));
-    let unbounded = [f64::INFINITY, 0.0];
-    let wider = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
-    let (omega, amplitude) = of_runs.chain(of_backbones).fold(
-        (unbounded, unbounded),
-        |(omegas, amplitudes), (omega, amplitude)| {
-            (wider(omegas, omega), wider(amplitudes, amplitude))
-        },
-    );
-    Validity {
-        frequency_hz: omega.map(|omega| omega / TAU),
-        torque_n_m: study.torque_n_m.map(|torque| [torque, torque]),
-        level: Some(format!(
-            "displacement amplitudes from {:.3e} to {:.3e} m",
-            amplitude[0], amplitude[1]
-        )),
+    fn validity(&self, study: &LapResponseStudy) -> Validity {
+        let runs = || study.sines.iter().filter(|run| run.used_for == Use::Fit);
+        let backbones = || {
+            study
+                .backbones
+                .iter()
+                .filter(|run| run.used_for == Use::Fit)
+        };
+        let of_runs = runs().flat_map(|run| {
+            run.lines
+                .iter()
+                .map(|line| (line.omega, line.displacement_m))
+        });
+        let of_backbones =
+            backbones().flat_map(|run| run.lines.iter().map(|line| (line.omega, line.amplitude_m)));
+        let unbounded = [f64::INFINITY, 0.0];
+        let wider = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+        let (omega, mut amplitude) = of_runs.chain(of_backbones).fold(
+            (unbounded, unbounded),
+            |(omegas, amplitudes), (omega, amplitude)| {
+                (wider(omegas, omega), wider(amplitudes, amplitude))
+            },
+        );
+        if self.in_time == InTime::Fitted {
+            // samples reach from the release on, points from some periods behind it
+            amplitude[1] = amplitude[1].max(self.amplitude_m);
+        }
+        Validity {
+            frequency_hz: omega.map(|omega| omega / TAU),
+            torque_n_m: study.torque_n_m.map(|torque| [torque, torque]),
+            level: Some(format!(
+                "displacement amplitudes from {:.3e} to {:.3e} m",
+                amplitude[0], amplitude[1]
+            )),
+        }
     }
 }

@@ -246,6 +246,18 @@ impl LapResponse {
         told.collect()
     }
 
+    /// How free decays went into the estimate, in a sentence; `None` where none did.
+    #[must_use]
+    pub fn of_decays(&self) -> Option<String> {
+        match &self.in_time {
+            InTime::NoDecay => None,
+            InTime::Fitted => Some("Decays are fitted sample by sample.".to_owned()),
+            InTime::Read(reason) => Some(format!(
+                "Decays are fitted as they are read, not sample by sample: {reason}."
+            )),
+        }
+    }
+
     /// The standard deviation of an unknown; zero of what is known.
     #[must_use]
     pub fn deviation(&self, unknown: ResponseUnknown) -> f64 {

@@ -107,9 +107,11 @@ impl LapResponseReport<'_> {
             true => String::new(),
             false => format!(" of {}", parts.join(", ")),
         };
+        let of_decays = self.found.of_decays();
+        let of_decays = of_decays.map_or_else(String::new, |own| format!(" {}", escaped(&own)));
         format!(
             "<h2>Identified parameters</h2>\n{}{free}<p>Terms that depend on amplitude: {}. χ² per degree of freedom {} with a noise{of} \
-             ({noise}); {} of {} starts agree.</p>\n",
+             ({noise}); {} of {} starts agree.{of_decays}</p>\n",
             table(&header, &rows),
             escaped(&self.found.model.terms.to_string()),
             shown(reduced, 4),

@@ -70,6 +70,7 @@ pub(in super::super) fn run(
                 "free_reduced_chi_squared": found.free.as_ref().map(Fit::reduced_chi_squared),
                 "price": found.price,
             },
+            "of_decays": found.of_decays(),
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "models": found.comparison,
             "predictions": found.predictions,
@@ -153,6 +154,9 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
         found.starts.1,
         found.starts.0
     );
+    if let Some(of_decays) = found.of_decays() {
+        let _ = writeln!(text, "{of_decays}");
+    }
     text += "\nmodels by likelihood\n";
     let mut table = Table::new(&["terms", "unknowns", "χ²/ν", "BIC", ""]);
     for model in &found.comparison {

@@ -22,7 +22,7 @@ const RANGE_OF_IWAN: [[f64; 2]; MOST] = [[-60.0, 60.0], [-7.0, 3.4], [-9.2, 9.2]
 /// The same of one slider: of K_T in N/m and F_S in N.
 const RANGE_OF_JENKINS: [[f64; 2]; MOST] = [[-60.0, 60.0], [-60.0, 60.0], [0.0, 0.0], [0.0, 0.0]];
 /// Unknowns of Iwan's law, as logarithms in their order, whose effects on a motion are told apart.
-const MODERATE: [[f64; 2]; MOST] = [[-60.0, 60.0], [-1.2, 0.5], [-1.6, 0.2], [-2.3, 1.1]];
+const MODERATE: [[f64; 2]; MOST] = [[-60.0, 60.0], [-0.9, 0.1], [-0.5, 0.5], [-1.6, 0.5]];
 /// φ_max of small motion over the largest amplitude observed: responses do not tell it, but that all does not slip before.
 const BEYOND: f64 = 2.0;
 

@@ -29,14 +29,16 @@ pub use self::whiteness::Coloured;
 /// Steps of a motion at most.
 const MOST_STEPS: usize = 400_000;
 /// Motions of a search at most, and steps of them.
-const MOST_MOTIONS: usize = 1500;
+const MOST_MOTIONS: usize = 1000;
 const MOST_WORK: usize = 50_000_000;
 /// Samples of a motion below this part of the noise say nothing.
 const FADED: f64 = 0.1;
 /// Fewest samples of a record.
 const FEWEST: usize = 200;
-/// Mean square of a residual, in that of the noise, below which a start is near the end.
+/// Mean square of a residual, in that of the noise, below which a start is near the end, and below which a search from one that
+/// was brought near may come to it.
 const NEAR: f64 = 2.0;
+const PROMISING: f64 = 10.0;
 /// Shares of the records that others are brought near by.
 const SHARES: [f64; 5] = [0.1, 0.2, 0.35, 0.6, 1.0];
 
@@ -123,18 +125,21 @@ pub(in crate::response) fn fitted(
     if study.noise_is() != NoiseIs::OfRecords {
         return Err(NotInTime::OtherData);
     }
-    let moderate = read.iter().filter_map(|read| read.values.moderate());
-    let from = read.iter().map(|read| read.values).chain(moderate);
     let samples = runs.iter().filter_map(|run| run.recorded.as_deref());
     let longest = samples.fold(0, |most, record| most.max(record.values.len()));
-    let left = Cell::new(MOST_WORK.min(MOST_MOTIONS * runs.len() * longest));
+    let of_each = MOST_WORK.min(MOST_MOTIONS * runs.len() * longest);
+    let starts = read.iter().flat_map(|read| {
+        let moderate = read.values.moderate();
+        std::iter::once(read.values).chain(moderate)
+    });
     let mut reason = NotInTime::Lost;
-    for values in from {
+    for values in starts {
+        let left = Cell::new(of_each);
         let start = match Start::of((study, model), values, runs, &left) {
             Err(NotInTime::Lost) => continue,
             other => other?.brought_near(),
         };
-        if !start.is_near() {
+        if !start.is_within(PROMISING) {
             continue;
         }
         match start.ended() {
@@ -190,9 +195,9 @@ impl<'a> Start<'a> {
         Ok(Self { search, from })
     }
 
-    /// Whether its motion is that of the records up to a few times the noise.
-    fn is_near(&self) -> bool {
-        self.from.chi_squared < NEAR * self.search.samples() as f64
+    /// Whether the mean square of what its motion leaves of the records is below so many times that of the noise.
+    fn is_within(&self, times: f64) -> bool {
+        self.from.chi_squared < times * self.search.samples() as f64
     }
 
     /// The joint that the samples are most likely of, from here.
@@ -232,7 +237,7 @@ impl<'a> Start<'a> {
     /// The start brought near by the first samples, then by more and more of them: a phase that has run ahead by half a turn
     /// would draw a search the wrong way.
     fn brought_near(mut self) -> Self {
-        if self.is_near() {
+        if self.is_within(NEAR) {
             return self;
         }
         for share in SHARES {

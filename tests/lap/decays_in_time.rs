@@ -7,6 +7,7 @@ use std::path::Path;
 use bolted_joint::identify::lap::{
     InTime, LapResponse, LapResponseStudy, NotInTime, ResponseUnknown, SliderParameter, Term,
 };
+use bolted_joint_testing::has;
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -116,7 +117,7 @@ impl Oscillator {
             turn: released_m,
             at_turn: (self.first_loading)(released_m),
         };
-        let mut advance = |duration_s: f64, steps: usize, motion: &mut Motion| {
+        let advance = |duration_s: f64, steps: usize, motion: &mut Motion| {
             for _ in 0..steps {
                 self.advanced(motion, duration_s / steps as f64);
             }
@@ -299,7 +300,7 @@ fn assert_at_the_bound(case: &Case, draws: u64) {
         let found = identified(&study);
         let file = found.joint_file(&study);
         assert!(file.validate().is_empty(), "{:?}", file.validate());
-        assert!(file.passivity().active().is_empty());
+        assert!(file.passivity().active().next().is_none());
         let unknowns = case.unknowns.iter().zip(&case.truth).zip(&bounds);
         let errors = unknowns.map(|((unknown, truth), bound)| {
             let mut estimates = found.estimates.iter();
@@ -371,4 +372,66 @@ fn one_slider_is_known_at_the_bound() {
 #[test]
 fn many_sliders_are_known_at_the_bound_by_all_six_numbers() {
     assert_at_the_bound(&many_sliders(9.0, 1.2e5), 100);
+}
+
+/// Laws that slip so strongly that what is read of them tells little: no number runs away, and the file can be written.
+#[test]
+fn no_number_of_a_strongly_slipping_law_leaves_the_file() {
+    for (slip_force, stiffness, noise) in [
+        (9.0, 1.2e5, 1e-3),
+        (9.0, 1.2e5, 1e-4),
+        (20.0, 6e4, NOISE),
+        (5.0, 3e4, NOISE),
+    ] {
+        let case = many_sliders(slip_force, stiffness);
+        let record = case.record();
+        for seed in 0..3 {
+            let folder = tempfile::tempdir().unwrap();
+            let study = case.study(folder.path(), &record, (seed, noise));
+            let found = identified(&study);
+            let file = found.joint_file(&study);
+            let defects = file.validate();
+            assert!(
+                defects.is_empty(),
+                "{slip_force} {noise} {seed}: {defects:?}"
+            );
+            file.to_json().unwrap();
+        }
+    }
+}
+
+/// A law that is not that of the record leaves more than noise of it: what is read stays, and it is said why.
+#[test]
+fn a_wrong_law_is_not_fitted_sample_by_sample() {
+    let case = many_sliders(9.0, 1.2e5);
+    let folder = tempfile::tempdir().unwrap();
+    case.study(folder.path(), &case.record(), (1, NOISE));
+    let study = study(folder.path(), "k3", "");
+    let found = identified(&study);
+    assert!(
+        matches!(
+            found.in_time,
+            InTime::Read(NotInTime::Coloured(_) | NotInTime::Lost)
+        ),
+        "{:?}",
+        found.in_time
+    );
+    let told = found.of_decays().unwrap();
+    has(&told, &["as they are read, not sample by sample: "]);
+    let file = found.joint_file(&study);
+    has(
+        &file.uncertainty.unwrap().basis,
+        &["decays as they are read ("],
+    );
+}
+
+/// Errors that a study states of what is read, and other data beside, are none of samples.
+#[test]
+fn what_is_stated_of_what_is_read_is_kept() {
+    let case = many_sliders(9.0, 1.2e5);
+    let folder = tempfile::tempdir().unwrap();
+    case.study(folder.path(), &case.record(), (1, NOISE));
+    let stated = "[noise]\nfrequency = 1e-4\ndamping = 0.01\n";
+    let found = identified(&study(folder.path(), "jenkins", stated));
+    assert_eq!(found.in_time, InTime::Read(NotInTime::StatedErrors));
 }

@@ -20,8 +20,10 @@ const STEPS: f64 = 400.0;
 const EVERY: usize = 8;
 /// Half the difference of ln A that slopes are taken over: of the size of what is read at once.
 const STEP: f64 = 0.1;
-/// Samples at most.
+/// Samples at most, and how many times as long as what was measured a model's decay may take: a model with next to no damping
+/// would go on for ever.
 const MOST: usize = 400_000;
+const AS_LONG: f64 = 5.0;
 /// By how much the first amplitude that is read should be above the first that was measured, and how often that is tried.
 const ABOVE: f64 = 1.1;
 const RELEASES: usize = 3;
@@ -265,8 +267,11 @@ fn simulated(values: &Values, lines: &[BackboneLine], sigma_s: f64) -> Option<St
     let before_s = WINDOW * sigma_s + 0.25 * TAU / omega * HALF_PERIODS as f64;
     let rate = first.damping_ratio.unwrap_or(0.0).max(0.0) * omega;
     let mut released_m = first.amplitude_m * (rate * before_s).exp() * ABOVE;
+    let times = lines.iter().filter_map(|line| line.time_s);
+    let duration_s = times.fold(0.0_f64, f64::max);
+    let longest_s = AS_LONG * duration_s + 4.0 * before_s;
     let read = |released_m: f64| {
-        let record = decay(values, released_m, least, omega, before_s)?;
+        let record = decay(values, released_m, least, omega, (before_s, longest_s))?;
         let points = record.points(omega, sigma_s, 0.0);
         let stretches = points.windows(HALF_PERIODS);
         let stretches = stretches.map(|own| Stretch::of(own, sigma_s));
@@ -296,9 +301,10 @@ fn decay(
     released_m: f64,
     least_m: f64,
     omega: f64,
-    before_s: f64,
+    (before_s, longest_s): (f64, f64),
 ) -> Option<Record> {
     let h = TAU / omega / STEPS;
+    let most = ((longest_s / h) as usize).min(MOST * EVERY);
     // sin ½ω′h = ½ωh of Verlet's ω′: a mass and a damper that are larger by (ωh)²/12 give back ω
     let slower = 1.0 + (TAU / STEPS).powi(2) / 12.0;
     let mass = 0.5 * values.mass * slower;
@@ -318,7 +324,7 @@ fn decay(
     let mut a = -(of_spring(u) + at_turn) / mass;
     let mut samples = Vec::new();
     let (mut largest, mut left) = (released_m, None);
-    for step in 0..MOST * EVERY {
+    for step in 0..most {
         if step % EVERY == 0 {
             samples.push(u);
         }

@@ -207,7 +207,7 @@ fn many_sliders(slip_force: f64, stiffness: f64) -> Case {
         unknowns: [linear(), of_law.map(slider).to_vec()].concat(),
         truth: vec![K0, C12, slip_force, stiffness, -0.4, 0.5],
         oscillator: of_many_sliders,
-        samples: 2600,
+        samples: 3200,
     }
 }
 
@@ -310,6 +310,13 @@ fn assert_at_the_bound(case: &Case, draws: u64) {
             let holds = (low..=high).contains(truth);
             (error / bound, error / own.standard_deviation, holds)
         });
+        if found.in_time != InTime::Fitted {
+            println!("draw {seed}: {:?}", found.in_time);
+        }
+        let reasons = found.reasons_against(&study);
+        if !reasons.is_empty() {
+            println!("draw {seed}: {reasons:?}");
+        }
         (found.in_time == InTime::Fitted, errors.collect())
     };
     let all: Vec<(bool, Errors)> = std::thread::scope(|scope| {
@@ -371,7 +378,7 @@ fn one_slider_is_known_at_the_bound() {
 
 #[test]
 fn many_sliders_are_known_at_the_bound_by_all_six_numbers() {
-    assert_at_the_bound(&many_sliders(9.0, 1.2e5), 100);
+    assert_at_the_bound(&many_sliders(4.0, 5e4), 120);
 }
 
 /// Laws that slip so strongly that what is read of them tells little: no number runs away, and the file can be written.

@@ -8,6 +8,7 @@ use super::decay::{InTime, corrected, fitted, followed};
 use super::fit::{self, Data, Fit, Kind};
 use super::model::Model;
 use super::passive::Limit;
+use super::reliability::FEW_STARTS;
 use super::start;
 use super::study::LapResponseStudy;
 use super::terms::TermSet;
@@ -199,8 +200,14 @@ fn in_time(study: &LapResponseStudy, candidate: Candidate) -> Candidate {
     let model = candidate.model(study);
     // where reading came to nothing one of the fits before may be nearer
     let read = [&candidate.fit, &candidate.corrected, &candidate.first];
-    match fitted(study, &model, &read, &measured) {
+    // one search alone says nothing of whether there is a better estimate; two over the samples, from starts apart, do
+    let is_alone = candidate.starts.0 >= FEW_STARTS && candidate.starts.1 < 2;
+    match fitted((study, &model), &read, &measured, is_alone) {
         Ok(found) => Candidate {
+            starts: match is_alone && found.searches.1 > 1 {
+                true => found.searches,
+                false => candidate.starts,
+            },
             fit: found.fit,
             free: found.free,
             unrest: found.moved,

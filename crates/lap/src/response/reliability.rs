@@ -22,7 +22,7 @@ const NOISE: f64 = 1.5;
 const MISFIT: f64 = 0.5;
 const MISFIT_OF_FREQUENCIES: f64 = 0.05;
 /// Searches beside which one alone that came to its estimate says nothing of whether there is a better one.
-const FEW_STARTS: usize = 3;
+pub(super) const FEW_STARTS: usize = 3;
 
 impl LapResponse {
     /// What speaks against the estimate, a line each; empty if nothing does.

@@ -39,6 +39,9 @@ const FEWEST: usize = 200;
 /// was brought near may come to it.
 const NEAR: f64 = 2.0;
 const PROMISING: f64 = 10.0;
+/// Standard deviations within which two searches came to the same estimate, and beyond which their starts are two.
+const AGREES: f64 = 2.0;
+const APART: f64 = 3.0;
 /// Shares of the records that others are brought near by.
 const SHARES: [f64; 5] = [0.1, 0.2, 0.35, 0.6, 1.0];
 
@@ -110,14 +113,17 @@ pub(in crate::response) struct Found {
     /// Standard deviations of the last step.
     pub(in crate::response) moved: f64,
     pub(in crate::response) runs: Vec<BackboneRun>,
+    /// Searches that were followed, and how many came to this estimate from starts apart.
+    pub(in crate::response) searches: (usize, usize),
 }
 
-/// Fits a model to the samples of decays, from fits to what was read of them: the last one first.
+/// Fits a model to the samples of decays, from fits to what was read of them: the last one first. Where the search over what was
+/// read came to its end alone another one over the samples has to come to the same estimate, to `confirm` it.
 pub(in crate::response) fn fitted(
-    study: &LapResponseStudy,
-    model: &Model,
+    (study, model): (&LapResponseStudy, &Model),
     read: &[&Fit],
     runs: &[&BackboneRun],
+    confirm: bool,
 ) -> Result<Found, NotInTime> {
     if study.noise.is_of_curves {
         return Err(NotInTime::StatedErrors);
@@ -133,7 +139,14 @@ pub(in crate::response) fn fitted(
         std::iter::once(read.values).chain(moderate)
     });
     let mut reason = NotInTime::Lost;
+    let mut ends: Vec<(Values, Found)> = Vec::new();
+    let mut followed = 0;
     for values in starts {
+        let is_near =
+            |(other, found): &(Values, Found)| found.is_within(model, APART, [other, &values]);
+        if ends.iter().any(is_near) {
+            continue;
+        }
         let left = Cell::new(of_each);
         let start = match Start::of((study, model), values, runs, &left) {
             Err(NotInTime::Lost) => continue,
@@ -142,13 +155,49 @@ pub(in crate::response) fn fitted(
         if !start.is_within(PROMISING) {
             continue;
         }
+        followed += 1;
         match start.ended() {
-            Ok(found) => return Ok(found),
+            Ok(found) => ends.push((values, found)),
             // another start may come to a better end
             Err(problem) => reason = problem,
         }
+        if !ends.is_empty() && (!confirm || agreeing(model, &ends) > 1) {
+            break;
+        }
     }
-    Err(reason)
+    let searches = (followed, agreeing(model, &ends));
+    let of_found = |found: &Found| found.fit.chi_squared;
+    let best = ends
+        .into_iter()
+        .map(|(_, found)| found)
+        .min_by(|one, other| of_found(one).total_cmp(&of_found(other)));
+    best.map(|found| Found { searches, ..found }).ok_or(reason)
+}
+
+/// How many searches came to the estimate of the best of them.
+fn agreeing(model: &Model, ends: &[(Values, Found)]) -> usize {
+    let all = ends.iter().map(|(_, found)| found);
+    let best = all
+        .clone()
+        .min_by(|one, other| one.fit.chi_squared.total_cmp(&other.fit.chi_squared));
+    let Some(best) = best else {
+        return 0;
+    };
+    let most = AGREES * AGREES * best.fit.reduced_chi_squared();
+    let agree = |own: &&Found| {
+        own.fit.chi_squared <= best.fit.chi_squared + most
+            && best.is_within(model, AGREES, [&best.fit.values, &own.fit.values])
+    };
+    all.filter(agree).count()
+}
+
+impl Found {
+    /// Whether two places are within so many standard deviations of each other.
+    fn is_within(&self, model: &Model, deviations: f64, [one, other]: [&Values; 2]) -> bool {
+        let change = model.change(one, other);
+        let along = change.dot(&(&self.fit.information * &change));
+        along <= deviations * deviations * self.fit.reduced_chi_squared()
+    }
 }
 
 /// Where a search over samples may start.
@@ -231,6 +280,7 @@ impl<'a> Start<'a> {
             fit: held.fit,
             moved,
             runs: held.runs,
+            searches: (1, 1),
         })
     }
 

@@ -207,7 +207,7 @@ fn many_sliders(slip_force: f64, stiffness: f64) -> Case {
         unknowns: [linear(), of_law.map(slider).to_vec()].concat(),
         truth: vec![K0, C12, slip_force, stiffness, -0.4, 0.5],
         oscillator: of_many_sliders,
-        samples: 3200,
+        samples: 2600,
     }
 }
 

@@ -210,3 +210,6 @@ fn lap(values: &Values, factor: f64) -> Lap<1> {
         b: body,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -111,3 +111,54 @@ impl Rows {
         own.chain(drawn).chain([(self.rest, none())]).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::response::model::ResponseUnknown;
+    use crate::response::study::Place;
+    use crate::response::terms::TermSet;
+
+    /// χ²(p) = χ²₀ + 2 gᵀΔ + ΔᵀHΔ, also where H tells one direction alone.
+    #[test]
+    fn the_rows_have_the_square_form_that_they_are_of() {
+        let model = Model {
+            drive: Place::Relative,
+            response: Place::Relative,
+            terms: TermSet::default(),
+            unknowns: vec![
+                ResponseUnknown::JointStiffness,
+                ResponseUnknown::JointDamping,
+            ],
+            harmonics: 1,
+        };
+        let at = Values {
+            mass: 2.0,
+            joint_stiffness: 5e5,
+            joint_damping: 2.0,
+            ..Values::default()
+        };
+        for information in [[4.0, 3.0, 9.0], [4.0, 6.0, 9.0]] {
+            let [first, both, second] = information;
+            let normal = Normal {
+                information: DMatrix::from_row_slice(2, 2, &[first, both, both, second]),
+                gradient: DVector::from_row_slice(&[2.0, 3.0]),
+                chi_squared: 50.0,
+            };
+            let rows = Rows::of(&at, &normal, (100, 1e-4));
+            let mut moved = at;
+            moved.joint_stiffness += 0.5;
+            moved.joint_damping -= 0.25;
+            let change = DVector::from_row_slice(&[0.5, -0.25]);
+            let expected = 50.0
+                + 2.0 * normal.gradient.dot(&change)
+                + change.dot(&(&normal.information * &change));
+            let squares = rows
+                .at(&model, &moved)
+                .into_iter()
+                .map(|(own, _)| own * own);
+            let found = squares.sum::<f64>();
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
+    }
+}

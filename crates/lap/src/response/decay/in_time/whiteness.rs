@@ -195,3 +195,6 @@ fn along(left: &DVector<f64>, carrier: &[Complex64]) -> Squares {
     }
     all
 }
+
+#[cfg(test)]
+mod tests;

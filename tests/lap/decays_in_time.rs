@@ -378,7 +378,7 @@ fn one_slider_is_known_at_the_bound() {
 
 #[test]
 fn many_sliders_are_known_at_the_bound_by_all_six_numbers() {
-    assert_at_the_bound(&many_sliders(4.0, 5e4), 120);
+    assert_at_the_bound(&many_sliders(4.0, 5e4), 200);
 }
 
 /// Laws that slip so strongly that what is read of them tells little: no number runs away, and the file can be written.

@@ -6,7 +6,7 @@ mod many;
 use std::f64::consts::PI;
 
 use bolted_joint_dynamics::{
-    DofLaws, Dual, Number,
+    Dual, Number,
     law::{Iwan, Jenkins, Law},
 };
 use num_complex::Complex64;
@@ -221,11 +221,27 @@ impl SliderValues {
         all.into_iter().map(|n| (n.value, n.change)).collect()
     }
 
-    /// The law that a lap moves by.
-    pub(super) fn laws(&self) -> DofLaws {
+    /// The same law by unknowns about a larger amplitude, m. That of small motion then ends farther out.
+    pub(super) fn about(&self, reference_m: f64) -> Self {
+        let mut own = *self;
+        if reference_m <= self.reference_m {
+            return own;
+        }
+        let farther = (reference_m / self.reference_m).ln();
+        own.reference_m = reference_m;
+        if self.slider != Slider::Jenkins {
+            // K_l ∝ A^(χ+1), φ_max/A
+            own.logs[0] += self.logs[1].exp() * farther;
+            own.logs[2] -= farther;
+        }
+        own
+    }
+
+    /// Displacement at which the curve of first loading has a corner, m.
+    pub(super) fn corner_m(&self) -> f64 {
         match self.law(self.logs) {
-            Valued::Jenkins(law) => law.into(),
-            Valued::Iwan(law) => law.into(),
+            Valued::Jenkins(law) => law.nonlinear_amplitude(0.0, 0.0),
+            Valued::Iwan(law) => law.nonlinear_amplitude(0.0, 0.0),
         }
     }
 

@@ -1,12 +1,12 @@
 //! The motion of a lap after a release, as a record has it: samples of the model itself, with what its law remembers.
 //!
-//! The lap's own Runge–Kutta steps are taken, which are cut where the joint turns or its load has a corner.
+//! Masing's rule goes from turn to turn: as the motion decays no loop closes, so that the last turn and its load are all that the
+//! law remembers. That is the lap's own motion, to rounding, and takes a quarter of the time of its steps, which count energies
+//! and remember up to 64 turns.
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::{
-    Body, DofLaws, Lap, LapLoads, LapMoment, LapState, LapStepper, Linear, Motion, law::JointLaw,
-};
+use bolted_joint_dynamics::law::Law as _;
 
 use super::recorded::{Quantity, Recorded};
 use crate::response::model::Values;
@@ -15,8 +15,10 @@ use crate::response::model::Values;
 const STEPS: f64 = 64.0;
 /// A motion beyond so many times the release is none of a decay.
 const ESCAPES: f64 = 2.0;
-/// Nothing acts on the bodies.
-const FREE: LapLoads<1> = LapLoads { a: [0.0], b: [0.0] };
+/// Cuts of a step at most, part of the displacement of a corner that is none, and steps that find the place of a cut.
+const CUTS: usize = 4;
+const AT_CORNER: f64 = 1e-9;
+const PLACED: usize = 12;
 
 /// Where a motion begins: at rest, away from the middle, where the joint came to straight from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,13 +69,6 @@ impl Grid {
     }
 }
 
-/// A lap that moves by itself.
-struct Moving {
-    lap: Lap<1>,
-    stepper: LapStepper<1>,
-    moment: LapMoment<1>,
-}
-
 /// What a record would have of the lap with these values, without an offset; `None` where that moves as no decay does.
 pub(super) fn sampled(
     values: &Values,
@@ -81,11 +76,16 @@ pub(super) fn sampled(
     record: &Recorded,
     grid: &Grid,
 ) -> Option<Vec<f64>> {
-    let mut moving = Moving::released(values, release.displacement_m, grid)?;
+    let law = Law::of(values, grid);
+    let mut place = law.released(release.displacement_m);
     let mut samples = Vec::with_capacity(grid.samples);
     let before = (release.time_s / record.interval_s).ceil().max(0.0) as usize;
     let before = before.min(grid.samples);
-    let swing = moving.at_rest(release.displacement_m)?;
+    let square = -law.acceleration(&place, [place.u, place.v]) / release.displacement_m;
+    let swing = (square > 0.0).then(|| Swing {
+        displacement_m: release.displacement_m,
+        omega: square.sqrt(),
+    })?;
     for n in 0..before {
         let way_s = record.interval_s * n as f64 - release.time_s;
         samples.push(record.share * swing.at(way_s, record.quantity));
@@ -93,80 +93,164 @@ pub(super) fn sampled(
     let first_s = record.interval_s * before as f64 - release.time_s;
     let steps = (first_s / grid.step_s).ceil().max(1.0);
     for _ in 0..steps as u64 {
-        moving.step(first_s / steps);
+        law.advance(&mut place, first_s / steps);
     }
     let farthest = ESCAPES * release.displacement_m.abs();
     for n in before..grid.samples {
         if n > before {
             for _ in 0..grid.steps {
-                moving.step(grid.step_s);
+                law.advance(&mut place, grid.step_s);
             }
         }
-        let relative = moving.relative();
-        if !(relative.displacement[0].abs() < farthest) {
+        if place.u.is_nan() || place.u.abs() > farthest {
             return None;
         }
         let value = match record.quantity {
-            Quantity::Displacement => relative.displacement[0],
-            Quantity::Velocity => relative.velocity[0],
-            Quantity::Acceleration => moving.acceleration(),
+            Quantity::Displacement => place.u,
+            Quantity::Velocity => place.v,
+            Quantity::Acceleration => law.acceleration(&place, [place.u, place.v]),
         };
         samples.push(record.share * value);
     }
-    samples
-        .iter()
-        .all(|value| value.is_finite())
-        .then_some(samples)
+    let is_finite = samples.iter().all(|value| value.is_finite());
+    is_finite.then_some(samples)
 }
 
-impl Moving {
-    fn released(values: &Values, displacement_m: f64, grid: &Grid) -> Option<Self> {
+/// Relative displacement and velocity, and place and load of the law's last turn.
+#[derive(Clone, Copy)]
+struct Place {
+    u: f64,
+    v: f64,
+    turn: f64,
+    at_turn: f64,
+}
+
+/// The relative motion: M ü + C u̇ + K u + … + f = 0.
+struct Law<'a> {
+    values: &'a Values,
+    mass: f64,
+    spring: f64,
+    damper: f64,
+    first_loading: Option<Box<dyn Fn(f64) -> f64>>,
+    /// Way from a turn at which the load of the law has a corner, m.
+    corner: f64,
+}
+
+impl<'a> Law<'a> {
+    fn of(values: &'a Values, grid: &Grid) -> Self {
         // A step turns the phase by ωh (1 − (ωh)⁴/120) in place of ωh: a mass that is smaller by (ωh)⁴/60 gives ω back
-        let faster = 1.0 - (grid.omega * grid.step_s).powi(4) / 60.0;
-        let lap = lap(values, 1.0);
-        let stepped = self::lap(values, faster);
-        if lap.defect().is_some() || stepped.defect().is_some() {
-            return None;
+        let slower = 1.0 - (grid.omega * grid.step_s).powi(4) / 60.0;
+        let slider = values.slider.as_ref();
+        Self {
+            values,
+            mass: 0.5 * values.mass * slower,
+            spring: 0.5 * values.support_stiffness + values.spring(),
+            damper: values.relative_damping(),
+            first_loading: slider.map(|slider| slider.first_loading()),
+            corner: slider.map_or(f64::INFINITY, |slider| 2.0 * slider.corner_m()),
         }
-        let at = |part: f64| Motion {
-            displacement: [part * displacement_m],
-            velocity: [0.0],
+    }
+
+    fn released(&self, displacement_m: f64) -> Place {
+        let load = self.first_loading.as_ref();
+        let load = load.map_or(0.0, |load| load(displacement_m.abs()));
+        Place {
+            u: displacement_m,
+            v: 0.0,
+            turn: displacement_m,
+            at_turn: displacement_m.signum() * load,
+        }
+    }
+
+    /// Load of the law that slips at a displacement behind the last turn: f_r + 2 F((u − u_r)/2), F odd.
+    fn load(&self, place: &Place, u: f64) -> f64 {
+        let Some(first_loading) = &self.first_loading else {
+            return 0.0;
         };
-        let state = LapState {
-            a: at(0.5),
-            b: at(-0.5),
-        };
-        let mut moment = LapMoment::from(state);
-        stepped.joint.commit(&mut moment.memory, &state.relative());
-        Some(Self {
-            lap,
-            stepper: LapStepper::new(&stepped),
-            moment,
-        })
+        let way = u - place.turn;
+        place.at_turn + 2.0 * way.signum() * first_loading(0.5 * way.abs())
     }
 
-    fn step(&mut self, step_s: f64) {
-        self.stepper.step(&mut self.moment, &[FREE; 3], step_s);
+    fn acceleration(&self, place: &Place, [u, v]: [f64; 2]) -> f64 {
+        let terms = self.values.terms.load::<f64>(&[], u, v);
+        -(self.spring * u + self.damper * v + terms + self.load(place, u)) / self.mass
     }
 
-    fn relative(&self) -> Motion<1> {
-        self.moment.state.relative()
+    /// One step of the classical Runge–Kutta method behind the last turn.
+    fn stepped(&self, place: &Place, h: f64) -> Place {
+        let Place { u, v, .. } = *place;
+        let a1 = self.acceleration(place, [u, v]);
+        let v2 = v + 0.5 * h * a1;
+        let a2 = self.acceleration(place, [u + 0.5 * h * v, v2]);
+        let v3 = v + 0.5 * h * a2;
+        let a3 = self.acceleration(place, [u + 0.5 * h * v2, v3]);
+        let v4 = v + h * a3;
+        let a4 = self.acceleration(place, [u + h * v3, v4]);
+        Place {
+            u: u + h / 6.0 * (v + 2.0 * (v2 + v3) + v4),
+            v: v + h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4),
+            ..*place
+        }
     }
 
-    /// Of the relative motion, m/s².
-    fn acceleration(&self) -> f64 {
-        let LapMoment { state, memory } = &self.moment;
-        let [[of_a], [of_b]] = self.lap.accelerations(memory, state, &FREE);
-        of_a - of_b
+    /// A step that is cut where the motion turns or the load has a corner: between them all is smooth.
+    fn advance(&self, place: &mut Place, step_s: f64) {
+        let mut left_s = step_s;
+        for _ in 0..CUTS {
+            let next = self.stepped(place, left_s);
+            if self.first_loading.is_none() {
+                *place = next;
+                return;
+            }
+            let turns = place.v * next.v < 0.0;
+            let turned = turns.then(|| self.placed(place, left_s, &|at| at.v * next.v.signum()));
+            let end = turned.unwrap_or((left_s, next));
+            let beyond = |at: &Place| (at.u - at.turn).abs() - self.corner;
+            let is_cornered = beyond(place) < -AT_CORNER * self.corner
+                && beyond(&end.1) > AT_CORNER * self.corner;
+            if is_cornered {
+                let (at_s, at) = self.placed(place, end.0, &beyond);
+                *place = at;
+                left_s -= at_s;
+                continue;
+            }
+            *place = end.1;
+            let Some((at_s, at)) = turned else {
+                return;
+            };
+            *place = Place {
+                u: at.u,
+                v: 0.0,
+                turn: at.u,
+                at_turn: self.load(place, at.u),
+            };
+            left_s -= at_s;
+        }
+        *place = self.stepped(place, left_s);
     }
 
-    /// The motion about the release; `None` where nothing draws it back.
-    fn at_rest(&self, displacement_m: f64) -> Option<Swing> {
-        let square = -self.acceleration() / displacement_m;
-        (square > 0.0).then(|| Swing {
-            displacement_m,
-            omega: square.sqrt(),
-        })
+    /// When within a step a number of the motion passes zero upwards, and the motion then: regula falsi, after Illinois.
+    fn placed(&self, from: &Place, step_s: f64, of: &dyn Fn(&Place) -> f64) -> (f64, Place) {
+        let last = self.stepped(from, step_s);
+        let (mut low, mut high) = ((0.0, of(from)), (step_s, of(&last)));
+        let mut found = (step_s, last);
+        for _ in 0..PLACED {
+            let at_s = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            if !(at_s > low.0 && at_s < high.0) {
+                break;
+            }
+            let at = self.stepped(from, at_s);
+            let value = of(&at);
+            found = (at_s, at);
+            if value < 0.0 {
+                low = (at_s, value);
+                high.1 *= 0.5;
+            } else {
+                high = (at_s, value);
+                low.1 *= 0.5;
+            }
+        }
+        found
     }
 }
 
@@ -184,30 +268,6 @@ impl Swing {
             Quantity::Velocity => -self.displacement_m * self.omega * sine,
             Quantity::Acceleration => -self.displacement_m * self.omega * self.omega * cosine,
         }
-    }
-}
-
-/// The lap with its mass times a factor.
-fn lap(values: &Values, factor: f64) -> Lap<1> {
-    // free bodies: nothing but their relative motion is there, and K = k/2 + k₁₂ and C = c/2 + c₁₂ of it are between them
-    let body = Body {
-        inertia: [factor * values.mass],
-        stiffness: [0.0],
-        damping: [0.0],
-    };
-    let linear = Linear {
-        stiffness: [[0.5 * values.support_stiffness + values.spring()]],
-        damping: [[values.relative_damping()]],
-    };
-    let terms = DofLaws::from(values.terms);
-    let laws = match &values.slider {
-        Some(slider) => terms.beside(&slider.laws()),
-        None => terms,
-    };
-    Lap {
-        joint: JointLaw { linear, on: [laws] },
-        a: body,
-        b: body,
     }
 }
 

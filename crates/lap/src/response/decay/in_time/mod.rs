@@ -39,6 +39,8 @@ const FEWEST: usize = 200;
 /// was brought near may come to it.
 const NEAR: f64 = 2.0;
 const PROMISING: f64 = 10.0;
+/// Amplitude that a law's unknowns are about, over the largest displacement in the samples.
+const BEYOND: f64 = 1.1;
 /// Standard deviations within which two searches came to the same estimate, and beyond which their starts are two.
 const AGREES: f64 = 2.0;
 const APART: f64 = 3.0;
@@ -219,6 +221,13 @@ impl<'a> Start<'a> {
             amplitude_m: largest_m,
         };
         let values = passive.within(values);
+        let mut values = values;
+        if let Some(slider) = &mut values.slider {
+            // samples reach from the release on, points from some periods behind it
+            let of_runs = runs.iter().map(|run| farthest_m(run));
+            *slider = slider.about(BEYOND * of_runs.fold(0.0, f64::max));
+        }
+        let values = values;
         let mut followed = Vec::new();
         let mut releases = Vec::new();
         for run in runs {
@@ -311,6 +320,17 @@ impl<'a> Start<'a> {
         }
         self
     }
+}
+
+/// The largest displacement in the samples of a run, m.
+fn farthest_m(run: &BackboneRun) -> f64 {
+    let both = run.recorded.as_deref().zip(run.lines.first());
+    let Some((record, first)) = both else {
+        return 0.0;
+    };
+    let derived = first.omega.powi(record.quantity.order()) * record.share.abs();
+    let samples = record.values.iter();
+    samples.fold(0.0_f64, |most, value| most.max(value.abs())) / derived
 }
 
 /// A run without what is of its reading alone.

@@ -96,7 +96,9 @@ pub(super) fn coloured(values: &Values, all: &[Left<'_>], unknowns: usize) -> Op
     along.degrees_of_freedom = along.degrees_of_freedom.saturating_sub(fitted);
     let mean_square = squares / count.max(1) as f64;
     match () {
-        () if !(mean_square < LARGE) => Some(Coloured::Large(mean_square.sqrt())),
+        () if mean_square.is_nan() || mean_square > LARGE => {
+            Some(Coloured::Large(mean_square.sqrt()))
+        }
         () if !along.is_chance() => Some(Coloured::AlongMotion),
         () if !multiples.is_chance() => Some(Coloured::Multiples),
         () if !over_time.is_chance() => Some(Coloured::OverTime),

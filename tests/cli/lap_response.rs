@@ -60,6 +60,51 @@ fn a_law_that_fits_may_be_relied_on() {
     bench.done("export o.joint.json -o o.fmu --as lap");
 }
 
+/// How a decay went into the estimate is said in every place: sample by sample, or why not.
+#[test]
+fn how_decays_are_fitted_is_said() {
+    let bench = Bench::new();
+    let (rate, omega) = (3.0, 700.0_f64);
+    // the sum of twelve numbers of a linear congruence is nearly normal
+    let mut state = 1_u64;
+    let mut unit = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut csv = "time_s,displacement_m\n".to_owned();
+    for n in 0..3000 {
+        let t = 2e-4 * f64::from(n);
+        let noise = 1e-6 * ((0..12).map(|_| unit()).sum::<f64>() - 6.0);
+        let u = 3e-4 * (-rate * t).exp() * (omega * t).cos() + noise;
+        writeln!(csv, "{t:e},{u:e}").unwrap();
+    }
+    bench.write("decay.csv", csv);
+    let decay = format!("{MASS}[[decay]]\nfile = \"decay.csv\"\n");
+    for (more, told, basis) in [
+        (
+            "",
+            "Decays are fitted sample by sample.",
+            "decays sample by sample",
+        ),
+        (
+            "band = [50, 170]\n",
+            "not sample by sample: `band` says that decay has other modes.",
+            "decays as they are read (`band` says",
+        ),
+    ] {
+        bench.write("study.toml", study("", &format!("{decay}{more}")));
+        let outcome = bench.done(&format!("{IDENTIFY} --report o.html"));
+        has(&outcome.stdout, &[told]);
+        has(&bench.text("o.html"), &[told]);
+        let of_file = &bench.json("o.joint.json")["uncertainty"]["basis"];
+        has(of_file.as_str().unwrap(), &[basis]);
+        let json = bench.done(&format!("{IDENTIFY} --json")).json();
+        has(json["of_decays"].as_str().unwrap(), &[told]);
+    }
+}
+
 /// One fitted run tells nothing of how runs scatter about the model: the reason stands below the table.
 #[test]
 fn why_a_run_has_no_interval_is_said() {

@@ -2,6 +2,7 @@
 //! small motion, which responses tell best.
 
 mod many;
+mod range;
 
 use std::f64::consts::PI;
 
@@ -16,13 +17,6 @@ use self::many::ManySliders;
 
 /// Unknowns of a law at most.
 pub(super) const MOST: usize = 4;
-/// Within which the unknowns of Iwan's law are searched, as logarithms: of the lost stiffness in N/m, of χ + 1, of φ_max over the
-/// reference, and of β. Beyond, numbers of the law are no longer finite, and nothing that is measured tells one from another.
-const RANGE_OF_IWAN: [[f64; 2]; MOST] = [[-60.0, 60.0], [-7.0, 3.4], [-9.2, 9.2], [-30.0, 30.0]];
-/// The same of one slider: of K_T in N/m and F_S in N.
-const RANGE_OF_JENKINS: [[f64; 2]; MOST] = [[-60.0, 60.0], [-60.0, 60.0], [0.0, 0.0], [0.0, 0.0]];
-/// Unknowns of Iwan's law, as logarithms in their order, whose effects on a motion are told apart.
-const MODERATE: [[f64; 2]; MOST] = [[-60.0, 60.0], [-0.9, 0.1], [-0.5, 0.5], [-1.6, 0.5]];
 /// φ_max of small motion over the largest amplitude observed: responses do not tell it, but that all does not slip before.
 const BEYOND: f64 = 2.0;
 
@@ -221,22 +215,6 @@ impl SliderValues {
         all.into_iter().map(|n| (n.value, n.change)).collect()
     }
 
-    /// The same law by unknowns about a larger amplitude, m. That of small motion then ends farther out.
-    pub(super) fn about(&self, reference_m: f64) -> Self {
-        let mut own = *self;
-        if reference_m <= self.reference_m {
-            return own;
-        }
-        let farther = (reference_m / self.reference_m).ln();
-        own.reference_m = reference_m;
-        if self.slider != Slider::Jenkins {
-            // K_l ∝ A^(χ+1), φ_max/A
-            own.logs[0] += self.logs[1].exp() * farther;
-            own.logs[2] -= farther;
-        }
-        own
-    }
-
     /// Displacement at which the curve of first loading has a corner, m.
     pub(super) fn corner_m(&self) -> f64 {
         match self.law(self.logs) {
@@ -260,31 +238,6 @@ impl SliderValues {
                 })
             }
         }
-    }
-
-    /// Brings the unknowns back into the range that they are searched in.
-    pub(super) fn keep_in_range(&mut self) {
-        let range = match self.slider {
-            Slider::Jenkins => RANGE_OF_JENKINS,
-            Slider::MicroSlip | Slider::Iwan => RANGE_OF_IWAN,
-        };
-        for (log, [least, most]) in self.logs.iter_mut().zip(range) {
-            // no number is as far from all data as can be
-            *log = if log.is_nan() {
-                most
-            } else {
-                log.clamp(least, most)
-            };
-        }
-    }
-
-    /// The same with unknowns whose effects are told apart.
-    pub(super) fn moderate(&self) -> Self {
-        let mut own = *self;
-        for (log, [least, most]) in own.logs.iter_mut().zip(MODERATE) {
-            *log = log.clamp(least, most);
-        }
-        own
     }
 
     /// Makes it softer where it is stiffer than this, N/m.

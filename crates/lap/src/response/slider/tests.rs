@@ -171,3 +171,39 @@ fn closed_forms_are_those_of_the_loop() {
         }
     }
 }
+
+/// About a larger amplitude the law is the same; that of small motion has its density and exponent, and ends farther out.
+#[test]
+fn a_law_is_the_same_about_another_amplitude() {
+    for slider in [Slider::MicroSlip, Slider::Iwan] {
+        let own = SliderValues::iwan(slider, 3e4, -0.4, [0.8, 0.3], 2e-4);
+        let other = own.about(3e-4);
+        assert_eq!(other.reference_m, 3e-4);
+        for (one, other) in own.parameters().iter().zip(other.parameters()) {
+            assert!((other.0 / one.0 - 1.0).abs() < 1e-12, "{slider:?}");
+        }
+        if slider == Slider::MicroSlip {
+            assert!((other.corner_m() / own.corner_m() - 1.5).abs() < 1e-12);
+        }
+        assert_eq!(own.about(1e-4), own);
+    }
+}
+
+/// Steps of a search may ask for any numbers; those of the law stay finite and above zero.
+#[test]
+fn no_step_leads_to_numbers_that_are_none() {
+    for far in [-1e3, 1e3, f64::INFINITY, f64::NAN] {
+        for slider in Slider::ALL {
+            let mut own = SliderValues::iwan(slider, 3e4, -0.4, [0.8, 0.3], 2e-4);
+            own.logs = [far; MOST];
+            own.keep_in_range();
+            for (value, by) in own.parameters() {
+                assert!(value.is_finite(), "{slider:?} {far}");
+                assert!(by.iter().all(|by| by.is_finite()), "{slider:?} {far}");
+            }
+            let (_, of_file) = own.in_file();
+            assert!(of_file.iter().all(|value| value.is_finite()));
+            assert!(own.corner_m() > 0.0 && own.stiffness() > 0.0);
+        }
+    }
+}

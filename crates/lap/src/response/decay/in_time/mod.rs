@@ -7,6 +7,7 @@
 mod release;
 mod rows;
 mod search;
+mod slopes;
 mod whiteness;
 
 use std::cell::Cell;

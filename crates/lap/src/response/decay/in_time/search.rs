@@ -5,12 +5,12 @@
 
 use std::cell::Cell;
 
-use bolted_joint_dynamics::law::Term;
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::NotInTime;
 use super::release::{self, Course};
-use super::rows::{Normal, Rows};
+use super::rows::Rows;
+use super::slopes::Slopes;
 use crate::response::backbone::BackboneRun;
 use crate::response::decay::motion::{Grid, Release};
 use crate::response::decay::recorded::Recorded;
@@ -42,13 +42,6 @@ const ROUGH: f64 = 0.5;
 const LONGEST: f64 = 0.7;
 /// Part of χ² that is rounding.
 const ROUNDING: f64 = 1e-10;
-/// First step of a difference: of a law's logarithms, and as part of others.
-const DIFFERENCE: f64 = 1e-3;
-/// Change of a residual, in standard deviations of one number, beyond which a difference is taken anew over less, what it then
-/// is, and how often.
-const FAR: f64 = 2.0;
-const NEAR: f64 = 0.3;
-const ANEW: usize = 5;
 /// Least eigenvalue of the scaled information that is more than rounding of differences.
 const TOLD: f64 = 1e-9;
 /// Numbers of each record that are its own: displacement and time of the release, and the offset.
@@ -87,17 +80,6 @@ pub(super) struct Search<'a> {
     pub(super) runs: Vec<Run<'a>>,
     /// Steps of motions that may still be taken.
     pub(super) left: &'a Cell<usize>,
-}
-
-/// How the residual of a record grows with the unknowns and with its release.
-struct Slopes {
-    by_unknown: DMatrix<f64>,
-    by_release: DMatrix<f64>,
-    /// Information of the release, and of it (rows) with the unknowns.
-    of_release: Matrix2<f64>,
-    between: DMatrix<f64>,
-    /// Of the unknowns, the release following.
-    information: DMatrix<f64>,
 }
 
 /// A step that was taken.
@@ -160,7 +142,12 @@ impl Search<'_> {
     }
 
     /// The motion of a run, as long as there are steps left.
-    fn course(&self, values: &Values, release: Release, run: &Run<'_>) -> Option<Course> {
+    pub(super) fn course(
+        &self,
+        values: &Values,
+        release: Release,
+        run: &Run<'_>,
+    ) -> Option<Course> {
         self.left
             .set(self.left.get().checked_sub(run.grid.steps())?);
         Course::of(values, release, run.record, &run.grid)
@@ -324,108 +311,8 @@ impl Search<'_> {
     fn slopes(&self, state: &State) -> Option<Vec<Slopes>> {
         let pairs = self.runs.iter().zip(&state.courses);
         pairs
-            .map(|(run, course)| self.slopes_of(&state.values, run, course))
+            .map(|(run, course)| Slopes::about(self, &state.values, run, course))
             .collect()
-    }
-
-    fn slopes_of(&self, values: &Values, run: &Run<'_>, course: &Course) -> Option<Slopes> {
-        let at = |values: &Values, release: Release| {
-            self.course(values, release, run).map(|own| own.residual)
-        };
-        let columns = self.model.unknowns.iter().map(|&unknown| {
-            let size = values
-                .clone()
-                .place(unknown)
-                .map_or(0.0, |place| place.abs());
-            let mut step = match unknown {
-                ResponseUnknown::Slider(_) => DIFFERENCE,
-                ResponseUnknown::Term(term) => DIFFERENCE * size_of(values, course, term).max(size),
-                ResponseUnknown::JointDamping | ResponseUnknown::SupportDamping => {
-                    DIFFERENCE * (1e-3 * values.mass * run.grid.omega).max(size)
-                }
-                _ => DIFFERENCE * size,
-            };
-            for _ in 0..ANEW {
-                (step.is_finite() && step > 0.0).then_some(())?;
-                let mut sides = [*values; 2];
-                for (side, sign) in sides.iter_mut().zip([1.0, -1.0]) {
-                    *side.place(unknown)? += sign * step;
-                }
-                let [above, below] = sides.map(|side| at(&side, course.release));
-                let change = above? - below?;
-                let size = change.norm();
-                if size < FAR {
-                    return Some(change / (2.0 * step));
-                }
-                step *= NEAR / size;
-            }
-            None
-        });
-        let columns: Vec<DVector<f64>> = columns.collect::<Option<_>>()?;
-        let [by_displacement, by_time] = release::steps(&course.release, &run.grid);
-        let of_release = [[by_displacement, 0.0], [0.0, by_time]].map(|change| {
-            let [above, below] = [1.0, -1.0].map(|sign| {
-                let moved = release::moved(&course.release, change.map(|own| sign * own));
-                at(values, moved)
-            });
-            Some((above? - below?) / (2.0 * (change[0] + change[1])))
-        });
-        let [Some(by_displacement), Some(by_time)] = of_release else {
-            return None;
-        };
-        Slopes::of(
-            DMatrix::from_columns(&columns),
-            DMatrix::from_columns(&[by_displacement, by_time]),
-        )
-    }
-}
-
-/// What a term would be that makes a thousandth of the load or of the damping of the motion.
-fn size_of(values: &Values, course: &Course, term: Term) -> f64 {
-    let part = match term.is_damper() {
-        false => values.relative_stiffness(),
-        true => values.relative_stiffness().abs().sqrt() * values.mass.sqrt(),
-    };
-    1e-3 * part.abs()
-        / course
-            .release
-            .displacement_m
-            .abs()
-            .powi(term.amplitude_power())
-}
-
-impl Slopes {
-    fn of(by_unknown: DMatrix<f64>, by_release: DMatrix<f64>) -> Option<Self> {
-        let square = by_release.transpose() * &by_release;
-        let of_release = Matrix2::from_fn(|i, j| square[(i, j)]);
-        let between = by_release.transpose() * &by_unknown;
-        let inverse = of_release.try_inverse()?;
-        let inverse = DMatrix::from_fn(2, 2, |i, j| inverse[(i, j)]);
-        // H = JᵀJ − JᵀK (KᵀK)⁻¹ KᵀJ
-        let information =
-            by_unknown.transpose() * &by_unknown - between.transpose() * inverse * &between;
-        let is_finite = information.iter().all(|entry| entry.is_finite());
-        is_finite.then_some(Self {
-            by_unknown,
-            by_release,
-            of_release,
-            between,
-            information,
-        })
-    }
-
-    /// With the residual of a course.
-    fn normal(&self, course: &Course) -> Normal {
-        let of_release = self.by_release.transpose() * &course.residual;
-        let right = Vector2::new(of_release[0], of_release[1]);
-        let solved = self.of_release.lu().solve(&right).unwrap_or_default();
-        let solved = DVector::from_column_slice(&[solved[0], solved[1]]);
-        Normal {
-            information: self.information.clone(),
-            gradient: self.by_unknown.transpose() * &course.residual
-                - self.between.transpose() * &solved,
-            chi_squared: course.chi_squared() - of_release.dot(&solved),
-        }
     }
 }
 

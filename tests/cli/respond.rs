@@ -1,6 +1,6 @@
 //! `respond` with studies of laps: the examples, what they must show, and what is refused.
 
-use bolted_joint_testing::close;
+use bolted_joint_testing::{close, has};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -231,7 +231,9 @@ fn a_loop_has_the_heat_of_its_slider() {
     );
     bench.write("study.toml", text.replace("ex02", "slider"));
     bench.done("respond study.toml -o out.csv --report out.svg");
-    assert!(bench.text("out.svg").starts_with("<svg"));
+    // 4 · 300 N · (U − 0.15 mm)
+    let beside = ["heat 0 J", "heat 0.1800 J", "heat 0.5400 J"];
+    has(&bench.text("out.svg"), &beside);
     let table = table(&bench.text("out.csv"));
     for level in levels {
         let mut of_level = table.iter().filter(|(_, row)| row["level"] == level);

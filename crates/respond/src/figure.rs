@@ -1,9 +1,13 @@
 //! The picture of a response: a panel for each lap and quantity, or one for all laps where there is one level.
 
 use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
+use bolted_joint_files::number;
 
 use super::study::{RespondStudy, Test};
 use super::table::{Column, ResponseTable, Role, Series};
+
+/// Significant digits of a total beside a curve's name.
+const DIGITS: usize = 4;
 
 impl RespondStudy {
     /// The response as a picture, and the same for a page; `None` if there is nothing that can be drawn.
@@ -31,8 +35,15 @@ impl RespondStudy {
             self.test,
             Test::Backbone { .. } | Test::PhaseResonance { .. }
         );
+        let total = place(Role::Total);
         let curve = |name: String, series: &Series, up: Up| ResponseCurve {
-            name,
+            name: match total.zip(series.rows.last()) {
+                Some((total, last)) => {
+                    let Column { name: of, unit, .. } = &table.columns[total];
+                    format!("{name}: {of} {} {unit}", number(last[total], DIGITS))
+                }
+                None => name,
+            },
             points: series
                 .rows
                 .iter()
@@ -100,7 +111,10 @@ impl RespondStudy {
         panels.sort_by_key(|(lap, _)| *lap);
         ResponseFigure {
             title: &self.name,
-            note: stable.map(|_| "dashed: unstable"),
+            note: match total {
+                Some(_) => Some("heat: of one cycle"),
+                None => stable.map(|_| "dashed: unstable"),
+            },
             panels: panels.into_iter().map(|(_, panel)| panel).collect(),
         }
         .drawn()
@@ -148,7 +162,7 @@ fn ups(columns: &[Column]) -> Vec<Up> {
             Role::Up if has_parts(n) => [up(n, Kind::Value), up(n + 1, Kind::PhaseOfParts)],
             Role::Up => [up(n, Kind::Value), None],
             Role::Phase => [up(n, Kind::Phase), None],
-            Role::Across | Role::Stable | Role::Aside => [None, None],
+            Role::Across | Role::Stable | Role::Aside | Role::Total => [None, None],
         }
     });
     each.flatten().collect()

@@ -226,7 +226,7 @@ impl RespondStudy {
                 let columns = vec![
                     column(name(observed), displacement, Role::Across),
                     column("load", load_unit(load), Role::Up),
-                    column("heat", "J", Role::Aside),
+                    column("heat", "J", Role::Total),
                 ];
                 (columns, displacement)
             }

@@ -15,6 +15,8 @@ pub enum Role {
     Stable,
     /// Written alone.
     Aside,
+    /// A sum along the curve: its last value is told beside the curve's name.
+    Total,
 }
 
 /// A column.

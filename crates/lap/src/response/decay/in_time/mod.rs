@@ -221,14 +221,12 @@ impl<'a> Start<'a> {
             model,
             amplitude_m: largest_m,
         };
-        let values = passive.within(values);
-        let mut values = values;
+        let mut values = passive.within(values);
         if let Some(slider) = &mut values.slider {
             // samples reach from the release on, points from some periods behind it
             let of_runs = runs.iter().map(|run| farthest_m(run));
             *slider = slider.about(BEYOND * of_runs.fold(0.0, f64::max));
         }
-        let values = values;
         let mut followed = Vec::new();
         let mut releases = Vec::new();
         for run in runs {

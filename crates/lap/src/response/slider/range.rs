@@ -6,10 +6,13 @@ use super::{MOST, Slider, SliderValues};
 /// Within which the unknowns of Iwan's law are searched, as logarithms: of the lost stiffness in N/m, of χ + 1, of φ_max over the
 /// reference, and of β. Beyond, numbers of the law are no longer finite, and nothing that is measured tells one from another.
 const RANGE_OF_IWAN: [[f64; 2]; MOST] = [[-60.0, 60.0], [-7.0, 3.4], [-9.2, 9.2], [-30.0, 30.0]];
+
 /// The same of one slider: of K_T in N/m and F_S in N.
 const RANGE_OF_JENKINS: [[f64; 2]; MOST] = [[-60.0, 60.0], [-60.0, 60.0], [0.0, 0.0], [0.0, 0.0]];
+
 /// Unknowns of Iwan's law, as logarithms in their order, whose effects on a motion are told apart.
 const MODERATE: [[f64; 2]; MOST] = [[-60.0, 60.0], [-0.9, 0.1], [-0.5, 0.5], [-1.6, 0.5]];
+
 impl SliderValues {
     /// Brings the unknowns back into the range that they are searched in.
     pub(in crate::response) fn keep_in_range(&mut self) {

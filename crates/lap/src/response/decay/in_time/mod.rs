@@ -134,8 +134,12 @@ pub(in crate::response) fn fitted(
     if study.noise_is() != NoiseIs::OfRecords {
         return Err(NotInTime::OtherData);
     }
-    let samples = runs.iter().filter_map(|run| run.recorded.as_deref());
-    let longest = samples.fold(0, |most, record| most.max(record.values.len()));
+    let grids = runs.iter().filter_map(|run| {
+        let record = run.recorded.as_deref()?;
+        let first = run.lines.first()?;
+        Some(Grid::of(record, record.values.len(), first.omega))
+    });
+    let longest = grids.map(|grid| grid.steps()).max().unwrap_or(0);
     let of_each = MOST_WORK.min(MOST_MOTIONS * runs.len() * longest);
     let starts = read.iter().flat_map(|read| {
         let moderate = read.values.moderate();

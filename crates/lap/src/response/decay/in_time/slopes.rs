@@ -18,6 +18,7 @@ const DIFFERENCE: f64 = 1e-3;
 const FAR: f64 = 2.0;
 const NEAR: f64 = 0.3;
 const ANEW: usize = 5;
+
 /// How the residual of a record grows with the unknowns and with its release.
 pub(super) struct Slopes {
     by_unknown: DMatrix<f64>,

@@ -56,8 +56,9 @@ def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(progra
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("draw", [13, 17])
+@pytest.mark.parametrize("draw", [13, 17, 52])
 def test_with_misplaced_sensors_between_bolts_a_joint_holds_or_is_refused(program, tmp_path, draw):
-    """Draw 17 was 6.2 deviations off with slopes across bolts; of 13 the data hardly know the second bolt, 20 deviations off."""
+    """Draw 17 was 6.2 deviations off with slopes across bolts; of 13 the data hardly know the second bolt, 20 deviations off; of 52
+    the free estimate has a stiffness of −146 ± 66 N·m/rad, and another of −2.2e6 ± 9e5 N/m."""
     z = bolted.a_little_wrong(program, tmp_path, draw, None, "different")
-    assert z is None if draw == 13 else abs(z).max() < 3.5, z
+    assert abs(z).max() < 3.5 if draw == 17 else z is None, z

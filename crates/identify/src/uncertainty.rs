@@ -130,7 +130,7 @@ pub(super) fn negligible(layout: &Layout, dynamic: &[f64], omega: f64) -> Vec<f6
 }
 
 /// The size of each unknown, or what would have no effect if that is more. A coupling may be zero: it counts beside the largest
-/// that a passive joint has, √(A_ii A_jj).
+/// that a passive joint has, √(A_ii A_jj). What is negative on the diagonal has no size: no joint pushes back.
 pub(super) fn sizes(layout: &Layout, values: &[f64], negligible: &[f64]) -> Vec<f64> {
     let entries: Vec<(usize, usize)> = layout.places().iter().map(|place| place.first()).collect();
     let size = |index: usize| {
@@ -141,7 +141,12 @@ pub(super) fn sizes(layout: &Layout, values: &[f64], negligible: &[f64]) -> Vec<
             entry.map_or(0.0, |entry| values[matrix + entry].max(0.0))
         };
         let bound = (of(i, i) * of(j, j)).sqrt();
-        values[index].abs().max(bound).max(negligible[index])
+        let own = if i == j {
+            of(i, i)
+        } else {
+            values[index].abs()
+        };
+        own.max(bound).max(negligible[index])
     };
     (0..values.len()).map(size).collect()
 }
@@ -192,6 +197,8 @@ pub(super) fn determined_together(
 
 #[cfg(test)]
 mod tests {
+    use super::super::layout::Bolts;
+    use super::super::model::JointModel;
     use super::*;
     use nalgebra::dmatrix;
 
@@ -201,6 +208,18 @@ mod tests {
         assert!((covariance - dmatrix![0.125, 0.0; 0.0, 5e-7]).amax() < 1e-16);
         let dependent = unit_covariance(&dmatrix![4.0, 2e3; 2e3, 1e6]);
         assert!(dependent[(0, 0)] > 1e12 && dependent[(1, 1)] > 1e6);
+    }
+
+    #[test]
+    fn a_stiffness_that_pushes_back_is_not_determined() {
+        let layout = Layout::of_bolts(JointModel::Full, &Bolts::One, 2);
+        let of = |k_yy: f64| {
+            let values = [k_yy, 0.0, 1e3, 10.0, 0.0, 0.1];
+            let sizes = sizes(&layout, &values, &[1e4, 100.0, 10.0, 1.0, 0.1, 1e-3]);
+            identified(&[5e5, 10.0, 10.0, 0.5, 0.01, 1e-3], &sizes)[0]
+        };
+        assert!(of(1e6));
+        assert!(!of(-1e6) && !of(4e5));
     }
 
     #[test]

@@ -173,9 +173,7 @@ pub fn identify_and_draw(
         }
     };
     warnings.extend(outliers.warning());
-    let within_limits = Systematic::within_limits(study, &all, &estimate);
-    let slips = match all.as_slice() {
-        _ if within_limits.is_some() => Vec::new(),
+    let slips = || match all.as_slice() {
         [lines] if slips::are_possible(&estimate.assessment) => slips::found(
             lines,
             &study.layout(),
@@ -183,6 +181,15 @@ pub fn identify_and_draw(
             &estimate.covariance().values,
         ),
         _ => Vec::new(),
+    };
+    let likely = slips::are_likely(&estimate.assessment).then(slips);
+    // Beside a slip that explains the data errors of the set-up are not sought from everywhere.
+    let is_certain = |slips: &Vec<_>| slips::are_certain(slips, &estimate.assessment);
+    let elsewhere = !likely.as_ref().is_some_and(is_certain);
+    let within_limits = Systematic::within_limits(study, &all, &estimate, elsewhere);
+    let slips = match within_limits {
+        Some(_) => Vec::new(),
+        None => likely.unwrap_or_else(slips),
     };
     // A slip is none where an error of the set-up explains the data; where none does, what it leaves tells nothing of errors.
     let systematic = within_limits.or_else(|| {

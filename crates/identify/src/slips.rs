@@ -30,6 +30,8 @@ const ALIKE: f64 = 1.5;
 const BELIEVABLE: f64 = 0.1;
 /// χ² per degree of freedom beside which a slip is thought of.
 const SUSPICIOUS: f64 = 5.0;
+/// The same beside which it is thought of first.
+const OVERWHELMING: f64 = 100.0;
 /// A fit that is exact to rounding is none of a measurement, and so no evidence.
 const ROUNDING: f64 = 1e-12;
 /// Slips that are tried from more starts.
@@ -83,6 +85,12 @@ pub(super) fn are_possible(assessment: &Assessment) -> bool {
     let chi_squared = assessment.reduced_chi_squared;
     let is_much = chi_squared.is_none_or(|chi| chi > SUSPICIOUS || !assessment.noise_is_stated);
     !assessment.fits() && is_much
+}
+
+/// Whether an estimate leaves so much that errors of the set-up within their limits hardly ever explain it.
+pub(super) fn are_likely(assessment: &Assessment) -> bool {
+    let chi_squared = assessment.reduced_chi_squared;
+    are_possible(assessment) && chi_squared.is_some_and(|chi| chi > OVERWHELMING)
 }
 
 /// Whether undoing a slip leaves so little that no other error need be thought of.

@@ -131,12 +131,11 @@ impl Task<'_> {
     /// z = φ (h + a)
     fn measured(&self, at: &At<'_>, point: &Point) -> Vec<Complex64> {
         let beside = at.beside(self.priors, &point.causes);
-        let entries = at.functions.entries.iter().zip(beside);
+        let factors = at.factors(self.priors, &point.causes);
+        let entries = at.functions.entries.iter().zip(factors);
+        let entries = entries.zip(beside);
         entries
-            .map(|(entry, beside)| {
-                let factor = at.factor(entry, self.priors, &point.causes);
-                factor * (at.truth[entry.place] + beside)
-            })
+            .map(|((entry, factor), beside)| factor * (at.truth[entry.place] + beside))
             .collect()
     }
 
@@ -147,16 +146,16 @@ impl Task<'_> {
             let Structure::Measured(measured) = self.experiment.side(side) else {
                 return Vec::new();
             };
-            let entries = measured.functions.entries.iter();
-            let values = entries.zip(&together[side as usize]).enumerate();
+            let ratios = self.ratios(side, line, epsilon);
+            let entries = measured.functions.entries.iter().zip(ratios);
+            let values = entries.zip(&together[side as usize]);
             values
-                .map(|(number, (entry, &value))| {
-                    if epsilon == 0.0 || entry.measurements.is_empty() {
-                        value
-                    } else {
-                        value / self.ratio(side, line, number, epsilon)
-                    }
-                })
+                .map(
+                    |((entry, ratio), &value)| match entry.measurements.is_empty() {
+                        true => value,
+                        false => value / ratio,
+                    },
+                )
                 .collect()
         })
     }

@@ -33,23 +33,29 @@ impl At<'_> {
         matches!(self.set, MeasuredSet::Assembly(_))
     }
 
-    /// φ of an entry with these values of the causes.
-    pub(crate) fn factor(&self, entry: &Entry, priors: &[Prior], values: &[f64]) -> Complex64 {
-        let mut gain = 1.0;
+    /// φ of every entry with these values of the causes.
+    pub(crate) fn factors(&self, priors: &[Prior], values: &[f64]) -> Vec<Complex64> {
+        let entries = &self.functions.entries;
+        let mut gain_of_all = 1.0;
+        let mut gains = vec![0.0; entries.len()];
         let mut phase = 0.0;
         for (prior, &value) in priors.iter().zip(values) {
             match prior.cause {
-                Cause::CommonGain => gain += value,
-                Cause::Gain(set) if set == self.set => gain += value,
-                Cause::ChannelGain(set, row) if set == self.set => {
-                    gain += value * share_of_row(entry, row)
+                Cause::CommonGain => gain_of_all += value,
+                Cause::Gain(set) if set == self.set => gain_of_all += value,
+                Cause::ChannelGain(set, row) if set == self.set && value != 0.0 => {
+                    for (gain, entry) in gains.iter_mut().zip(entries) {
+                        *gain += value * share_of_row(entry, row);
+                    }
                 }
                 Cause::Delay(set) if set == self.set => phase -= self.omega * value,
                 Cause::Phase(set) if set == self.set => phase += value,
                 _ => {}
             }
         }
-        Complex64::from_polar(gain, phase)
+        let turned = Complex64::cis(phase);
+        let gains = gains.into_iter();
+        gains.map(|gain| turned * (gain_of_all + gain)).collect()
     }
 
     /// a of every entry with these values of the causes.
@@ -305,10 +311,11 @@ mod tests {
                 centre: 0.0,
             }];
             let measured = |value: f64| -> Vec<Complex64> {
-                let beside = at.beside(&prior, &[value]);
+                let factors = at.factors(&prior, &[value]).into_iter();
+                let beside = factors.zip(at.beside(&prior, &[value]));
                 let entries = functions.entries.iter().zip(beside);
                 entries
-                    .map(|(entry, a)| at.factor(entry, &prior, &[value]) * (truth[entry.place] + a))
+                    .map(|(entry, (factor, a))| factor * (truth[entry.place] + a))
                     .collect()
             };
             let (above, below) = (measured(value + 1e-6), measured(value - 1e-6));

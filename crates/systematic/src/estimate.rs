@@ -23,6 +23,8 @@ pub struct Settings {
     pub most_reduced_chi_squared: f64,
     /// With more lines than these every second one, every third, and so on, is used.
     pub most_lines: usize,
+    /// Whether other starts are tried where the first one leads to nothing that fits.
+    pub seeks_elsewhere: bool,
 }
 
 impl Default for Settings {
@@ -33,6 +35,7 @@ impl Default for Settings {
             most_shifted: 0.3,
             most_reduced_chi_squared: 1.3,
             most_lines: usize::MAX,
+            seeks_elsewhere: true,
         }
     }
 }
@@ -186,7 +189,7 @@ fn best_of_many(task: &Task<'_>, start: &Start, settings: &Settings) -> Option<F
     // without causes what is left is no noise as soon as there are errors
     let is_good = |found: &Found| task.priors.is_empty() || fits(found);
     let first = best(task, start, settings);
-    if first.as_ref().is_some_and(is_good) {
+    if !settings.seeks_elsewhere || first.as_ref().is_some_and(is_good) {
         return first;
     }
     let few = Settings {

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::budget::Prior;
 use super::cause::{Cause, MeasuredSet, Side};
 use super::effect::At;
-use super::experiment::{ComplexMatrix, Entry, MeasuredFunctions, Structure};
+use super::experiment::{ComplexMatrix, MeasuredFunctions, Structure};
 use super::line::{Labelled, Point, Task, variance};
 use super::structures::value_of;
 
@@ -15,15 +15,13 @@ impl Task<'_> {
     /// Receptances of the labels without their noise, where a fit gives them.
     pub(crate) fn smooth(&self, line: usize, point: &Point, labelled: &Labelled) -> Labelled {
         [Side::A, Side::B].map(|side| {
-            let (now, omega) = (&labelled[side as usize], self.experiment.omega[line]);
+            let now = &labelled[side as usize];
             let needed = !self.priors.is_empty();
             let Some(fit) = needed.then(|| self.experiment.fit(side)).flatten() else {
                 return now.clone();
             };
-            let fitted = now.iter().enumerate();
-            let fitted: Vec<Complex64> = fitted
-                .map(|(entry, now)| fit.value(entry, omega).unwrap_or(*now))
-                .collect();
+            let pairs = fit.values(line).iter().zip(now);
+            let fitted: Vec<Complex64> = pairs.map(|(fit, now)| fit.unwrap_or(*now)).collect();
             let unloaded = self.unloaded(side, line, point, &fitted);
             self.freed(side, line, point, &unloaded, |entry| fitted[entry])
         })
@@ -83,28 +81,23 @@ impl Task<'_> {
         };
         let functions = &measured.functions;
         let epsilon = value_of(Cause::Frequency(side), self.priors, &point.causes);
-        let ratio = |number: usize, entry: &Entry| {
-            if epsilon == 0.0 || entry.measurements.is_empty() {
-                Complex64::from(1.0)
-            } else {
-                self.ratio(side, line, number, epsilon)
-            }
-        };
+        let ratios = self.ratios(side, line, epsilon);
         let entries = || functions.entries.iter().enumerate();
         // as they were in the structure's own test
         let now: Vec<Complex64> = entries()
             .zip(truth)
-            .map(|((number, entry), truth)| truth / ratio(number, entry))
+            .map(|((number, _), truth)| truth / ratios[number])
             .collect();
         let truth = functions.matrix(&now);
         let at = self.at_structure(side, functions, &truth, line);
         let beside = at.beside(self.priors, &point.causes);
+        let factors = at.factors(self.priors, &point.causes);
         let left: Vec<Complex64> = entries()
             .map(|(number, entry)| {
                 if entry.measurements.is_empty() {
                     return ZERO;
                 }
-                let clean = measured_at(number) / at.factor(entry, self.priors, &point.causes);
+                let clean = measured_at(number) / factors[number];
                 clean - now[number] - beside[number]
             })
             .collect();
@@ -117,7 +110,7 @@ impl Task<'_> {
                 if entry.measurements.is_empty() {
                     measured_at(number)
                 } else {
-                    ratio(number, entry) * (now[number] + change[number])
+                    ratios[number] * (now[number] + change[number])
                 }
             })
             .collect()
@@ -141,15 +134,15 @@ impl Task<'_> {
         let of = |(prior, value): (&Prior, &f64)| match prior.cause {
             Cause::Frequency(of) if of == side => {
                 let step = 1e-3 * prior.standard_deviation;
-                let ratio = |number, epsilon| self.ratio(side, line, number, epsilon);
+                let [here, above, below] = [*value, value + step, value - step]
+                    .map(|epsilon| self.ratios(side, line, epsilon));
                 let entries = functions.entries.iter().zip(labelled).enumerate();
                 let change = entries.map(|(number, (entry, value_here))| {
                     if entry.measurements.is_empty() {
                         return ZERO;
                     }
-                    let slope =
-                        (ratio(number, value + step) - ratio(number, value - step)) / (2.0 * step);
-                    value_here * slope / ratio(number, *value)
+                    let slope = (above[number] - below[number]) / (2.0 * step);
+                    value_here * slope / here[number]
                 });
                 Some(change.collect())
             }

@@ -83,11 +83,13 @@ impl<'t> Task<'t> {
         self.experiment.omega.len()
     }
 
-    /// R(ε) of an entry of a measured structure; 1 without a fit.
-    pub(crate) fn ratio(&self, side: Side, line: usize, entry: usize, epsilon: f64) -> Complex64 {
-        let fit = self.experiment.fit(side);
-        let omega = self.experiment.omega[line];
-        fit.map_or(Complex64::from(1.0), |fit| fit.ratio(entry, omega, epsilon))
+    /// R(ε) of each entry of a measured structure; 1 without a fit, and where an entry is not measured.
+    pub(crate) fn ratios(&self, side: Side, line: usize, epsilon: f64) -> Vec<Complex64> {
+        let moves = || self.experiment.fit(side).filter(|_| epsilon != 0.0);
+        match moves() {
+            Some(fit) => fit.ratios(line, self.experiment.omega[line], epsilon),
+            None => vec![Complex64::from(1.0); self.experiment.labelled(side)],
+        }
     }
 
     /// A structure's receptances at a line.
@@ -243,8 +245,9 @@ impl<'t> Task<'t> {
         for (number, coupled) in assembled.iter().enumerate() {
             let at = self.at_assembly(number, coupled, self.experiment.omega[line]);
             let beside = at.beside(self.priors, &point.causes);
-            for (entry, beside) in at.functions.entries.iter().zip(beside) {
-                let factor = at.factor(entry, self.priors, &point.causes);
+            let factors = at.factors(self.priors, &point.causes);
+            let entries = at.functions.entries.iter().zip(factors);
+            for ((entry, factor), beside) in entries.zip(beside) {
                 left.push(entry.values[line] / factor - beside - coupled.receptance[entry.place]);
             }
         }

@@ -32,6 +32,8 @@ pub(crate) struct ModalFit {
     poles: Vec<Complex64>,
     /// R_en and B_e of each entry; none where it is zero or not measured.
     residues: Vec<Option<DVector<Complex64>>>,
+    /// H of each entry at each line.
+    values: Vec<Vec<Option<Complex64>>>,
     /// χ² per degree of freedom.
     reduced_chi_squared: f64,
     /// n ln(χ²/n) + k ln n for n numbers and k unknowns: what poles have to pay for (BIC; Schwarz 1978).
@@ -59,7 +61,9 @@ impl ModalFit {
                 break;
             }
         }
-        best.filter(|best| best.reduced_chi_squared < NO_FIT)
+        let best = best.filter(|best| best.reduced_chi_squared < NO_FIT)?;
+        let values = omega.iter().map(|&omega| best.values_at(omega)).collect();
+        Some(Self { values, ..best })
     }
 
     fn with_poles(functions: &MeasuredFunctions, omega: &[f64], count: usize) -> Option<Self> {
@@ -97,27 +101,37 @@ impl ModalFit {
             scale,
             poles,
             residues,
+            values: Vec::new(),
             reduced_chi_squared: chi_squared / (numbers - unknowns),
             criterion: numbers * (chi_squared / numbers).ln() + unknowns * numbers.ln(),
         })
     }
 
-    /// H of an entry; `None` where it is not measured.
-    pub(crate) fn value(&self, entry: usize, omega: f64) -> Option<Complex64> {
-        let residues = self.residues[entry].as_ref()?;
-        let s = Complex64::new(0.0, omega / self.scale);
-        let row = basis(&self.poles, s);
-        Some(
-            row.zip(residues.iter())
-                .map(|(part, residue)| part * residue)
-                .sum(),
-        )
+    /// H of each entry at a line; `None` where it is not measured.
+    pub(crate) fn values(&self, line: usize) -> &[Option<Complex64>] {
+        &self.values[line]
     }
 
-    /// R(ε) = (1 + ε)⁻² H(ω/(1 + ε))/H(ω) of an entry.
-    pub(crate) fn ratio(&self, entry: usize, omega: f64, epsilon: f64) -> Complex64 {
-        let value = |omega| self.value(entry, omega).unwrap_or(Complex64::from(1.0));
-        value(omega / (1.0 + epsilon)) / value(omega) / (1.0 + epsilon).powi(2)
+    fn values_at(&self, omega: f64) -> Vec<Option<Complex64>> {
+        let s = Complex64::new(0.0, omega / self.scale);
+        let row: Vec<Complex64> = basis(&self.poles, s).collect();
+        let value = |residues: &DVector<Complex64>| -> Complex64 {
+            let parts = row.iter().zip(residues.iter());
+            parts.map(|(part, residue)| part * residue).sum()
+        };
+        let residues = self.residues.iter();
+        residues.map(|of| of.as_ref().map(value)).collect()
+    }
+
+    /// R(ε) = (1 + ε)⁻² H(ω/(1 + ε))/H(ω) of each entry at a line; 1 where it is not measured.
+    pub(crate) fn ratios(&self, line: usize, omega: f64, epsilon: f64) -> Vec<Complex64> {
+        let moved = self.values_at(omega / (1.0 + epsilon));
+        let pairs = moved.into_iter().zip(&self.values[line]);
+        let ratio = |(moved, value): (Option<Complex64>, &Option<Complex64>)| match (moved, value) {
+            (Some(moved), Some(value)) => moved / value / (1.0 + epsilon).powi(2),
+            _ => Complex64::from(1.0),
+        };
+        pairs.map(ratio).collect()
     }
 }
 
@@ -315,11 +329,11 @@ mod tests {
         );
         let epsilon = 2e-3;
         for entry in 0..3 {
-            for omega in &omega {
+            for (line, omega) in omega.iter().enumerate() {
                 let expected = truth(entry, omega / (1.0 + epsilon))
                     / truth(entry, *omega)
                     / (1.0 + epsilon).powi(2);
-                let found = fit.ratio(entry, *omega, epsilon);
+                let found = fit.ratios(line, *omega, epsilon)[entry];
                 // ten times less than the change that one per cent of noise would feign
                 assert!(
                     (found - expected).norm() < 0.01 * expected.norm(),

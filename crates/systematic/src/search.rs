@@ -401,12 +401,11 @@ pub(crate) fn keeps_its_frequency(task: &Task<'_>, line: usize, settings: &Setti
             return true;
         };
         let shift = (2.0 * prior.standard_deviation).min(LARGEST_SHIFT);
-        let entries = (0..measured.functions.entries.len())
-            .filter(|&e| !measured.functions.entries[e].measurements.is_empty());
-        entries
-            .flat_map(|entry| [shift, -shift].map(|epsilon| (entry, epsilon)))
-            .all(|(entry, epsilon)| {
-                (task.ratio(side, line, entry, epsilon) - 1.0).norm() < settings.most_shifted
-            })
+        [shift, -shift].into_iter().all(|epsilon| {
+            let ratios = task.ratios(side, line, epsilon);
+            let entries = measured.functions.entries.iter().zip(ratios);
+            let mut measured = entries.filter(|(entry, _)| !entry.measurements.is_empty());
+            measured.all(|(_, ratio)| (ratio - 1.0).norm() < settings.most_shifted)
+        })
     })
 }

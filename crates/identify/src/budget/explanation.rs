@@ -9,7 +9,8 @@ use bolted_joint_systematic::{
 pub(super) type Explanation = (Estimate, Estimate, Diagnosis);
 
 /// A way to an explanation from a start.
-pub(super) type Find = dyn Fn(&Experiment<'_>, &[Prior], &Start, &Settings) -> Option<Explanation>;
+pub(super) type Find<'f> =
+    dyn Fn(&Experiment<'_>, &[Prior], &Start, &Settings) -> Option<Explanation> + 'f;
 
 /// Many errors, each within its limits, can lead an estimate without causes to no joint at all, or to one that says nothing: then
 /// the one with them is found first. `None` where it does not explain the data, or contradicts a limit.

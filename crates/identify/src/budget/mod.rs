@@ -131,11 +131,13 @@ impl Systematic {
     }
 
     /// As [`Self::of`], where the estimate without causes leaves much more than the noise that the study states and all causes
-    /// together explain it within their limits. `None` where that is not so.
+    /// together explain it within their limits. `None` where that is not so. They are sought from where that estimate ended, and
+    /// `elsewhere` where that leads to nothing.
     pub(super) fn within_limits(
         study: &Study,
         all: &[Lines],
         estimate: &LinesEstimate,
+        elsewhere: bool,
     ) -> Option<Self> {
         let reduced = estimate.assessment.reduced_chi_squared;
         let is_far = reduced.is_none_or(|reduced| reduced > FAR);
@@ -146,7 +148,14 @@ impl Systematic {
         let data = (all.as_slice(), estimate.joint_numbers());
         let layout = study.layout();
         let place = (&layout, estimate.levels);
-        Self::at_levels(study, data, place, &free_unknowns(estimate), &explained)
+        let from_there: &Find<'_> = &|experiment, priors, start, settings| {
+            let settings = Settings {
+                seeks_elsewhere: elsewhere,
+                ..settings.clone()
+            };
+            explained(experiment, priors, start, &settings)
+        };
+        Self::at_levels(study, data, place, &free_unknowns(estimate), from_there)
     }
 
     /// A joint to start from where the data lead to none as long as the set-up is taken as exact: the first bolt's, with all causes.
@@ -179,7 +188,7 @@ impl Systematic {
         (all, joints): (&[Lines], &[usize]),
         (layout, levels): (&Layout, Levels),
         start: &[f64],
-        find: &Find,
+        find: &Find<'_>,
     ) -> Option<Self> {
         let at_most = |most: usize| -> Vec<Lines> {
             let fewer = all.iter().map(|lines| lines.at_most(most));

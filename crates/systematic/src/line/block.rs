@@ -45,6 +45,27 @@ fn stacked<'m>(
     all
 }
 
+/// The product with a matrix that is zero nearly everywhere.
+fn times(chain: &ComplexMatrix, changes: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+    let mut product = DMatrix::zeros(chain.nrows(), changes.ncols());
+    for column in 0..chain.ncols() {
+        for row in 0..chain.nrows() {
+            let factor = chain[(row, column)];
+            if factor == Complex64::ZERO {
+                continue;
+            }
+            for (sum, change) in product
+                .row_mut(row)
+                .iter_mut()
+                .zip(changes.row(column).iter())
+            {
+                *sum += factor * change;
+            }
+        }
+    }
+    product
+}
+
 impl Task<'_> {
     /// Linearises a line; `None` where an assembly is singular.
     pub(crate) fn terms(
@@ -123,7 +144,7 @@ impl Task<'_> {
             places.extend((0..experiment.points()).map(|label| (label, label)));
         }
         let chained = |changes: DMatrix<Complex64>| match &chain {
-            Some(chain) => chain * changes,
+            Some(chain) => times(chain, &changes),
             None => changes,
         };
         let smooth_by_labelled = chained(self.by_labelled(smooth_coupled, &places));
@@ -131,10 +152,10 @@ impl Task<'_> {
         let at = self.at_assembly(number, coupled, omega);
         let beside = at.beside(self.priors, &point.causes);
         let moved = &by_labelled * &line.shift;
+        let factors = at.factors(self.priors, &point.causes);
         let residual = (0..entries.len()).map(|e| {
             let entry = &entries[e];
-            let clean =
-                entry.values[line.line] / at.factor(entry, self.priors, &point.causes) - beside[e];
+            let clean = entry.values[line.line] / factors[e] - beside[e];
             clean - coupled.receptance[entry.place] - moved[e]
         });
         let residual = residual.collect();

@@ -41,12 +41,19 @@ def test_deviations_of_bolts_near_each_other_hold_where_all_functions_have_noise
 
 @pytest.mark.long
 def test_they_hold_with_the_error_budget_and_without_rotation(program, tmp_path):
-    for number, options in enumerate([{"budget": None}, {"model": "translation"}]):
+    """With a budget bolts have to be farther apart: 35 mm apart the data hardly determine them, and an interval was 4.8 deviations off."""
+    for number, (spacing, options) in enumerate([(0.05, {"budget": None}), (0.03, {"model": "translation"})]):
         folder = tmp_path / str(number)
         folder.mkdir()
-        z, whole = bolted.near(program, folder, 4, 2, 0.03, **options)
+        z, whole = bolted.near(program, folder, 4, 2, spacing, **options)
         assert whole["usable"], (options, whole["reasons_against"])
         assert abs(z).max() < 4, (options, z)
+
+
+def test_bolts_that_are_hardly_determined_with_the_budget_are_refused(program, tmp_path):
+    _, whole = bolted.near(program, tmp_path, 4, 2, 0.035, budget=None)
+    assert not whole["usable"]
+    assert any("the data hardly determine b2 k_yy" in reason for reason in whole["reasons_against"]), whole["reasons_against"]
 
 
 def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(program, tmp_path):
@@ -56,9 +63,11 @@ def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(progra
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("draw", [13, 17, 52])
+@pytest.mark.parametrize("draw", [11, 13, 17, 23, 52])
 def test_with_misplaced_sensors_between_bolts_a_joint_holds_or_is_refused(program, tmp_path, draw):
-    """Draw 17 was 6.2 deviations off with slopes across bolts; of 13 the data hardly know the second bolt, 20 deviations off; of 52
-    the free estimate has a stiffness of −146 ± 66 N·m/rad, and another of −2.2e6 ± 9e5 N/m."""
+    """Draw 17 was 6.2 deviations off with slopes across bolts. In 11 a line beside a resonance, which its smooth fit does not predict,
+    had 99 % of what is known of the accelerometer on A, which was 11 deviations off. Of 13 the data hardly know the second bolt, 20
+    deviations off, and of 23 the first one's rotation, 6 deviations off; of 52 the free estimate has a stiffness of
+    −146 ± 66 N·m/rad, and another of −2.2e6 ± 9e5 N/m."""
     z = bolted.a_little_wrong(program, tmp_path, draw, None, "different")
-    assert abs(z).max() < 3.5 if draw == 17 else z is None, z
+    assert abs(z).max() < 3.5 if draw in (11, 17) else z is None, z

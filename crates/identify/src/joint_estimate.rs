@@ -148,22 +148,23 @@ impl JointEstimate {
             .unwrap_or_default()
     }
 
-    /// Numbers of the joints of which no stiffness on the diagonal is known to half of its size.
-    pub(super) fn hardly_determined(&self) -> Vec<usize> {
+    /// The stiffnesses on the diagonal that are not known to half of their size, joint by joint: of several joints any, as the
+    /// others' numbers hang on it, and of a single one those of which none is known better.
+    pub(super) fn hardly_determined(&self) -> Vec<&Unknown> {
         let deviations = self.covariance.standard_deviation();
-        let direct = || {
-            let all = self.covariance.unknowns.iter().zip(&deviations);
-            all.filter(|(unknown, _)| unknown.is_direct_stiffness())
+        let all = self.covariance.unknowns.iter().zip(&deviations);
+        let direct: Vec<_> = all
+            .filter(|(unknown, _)| unknown.is_direct_stiffness())
+            .collect();
+        let is_open = |(unknown, deviation): &&(&'_ Unknown, &f64)| {
+            let size = unknown.value(&self.free[unknown.joint]).abs();
+            **deviation > UNRELIABLE * size
         };
-        let is_known = |joint: usize| {
-            let mut own = direct().filter(|(unknown, _)| unknown.joint == joint);
-            own.any(|(unknown, deviation)| {
-                *deviation <= UNRELIABLE * unknown.value(&self.free[joint]).abs()
-            })
-        };
-        (0..self.free.len())
-            .filter(|&joint| !is_known(joint))
-            .collect()
+        let open: Vec<&Unknown> = direct.iter().filter(is_open).map(|(of, _)| *of).collect();
+        match self.free.len() > 1 || open.len() == direct.len() {
+            true => open,
+            false => Vec::new(),
+        }
     }
 
     /// What the data do not determine, or hardly; `bolts` are the names of those that have joints of their own.

@@ -85,13 +85,18 @@ pub(super) fn reasons_against(
         }
         if open.is_empty() {
             let hardly = joint.hardly_determined().into_iter();
-            reasons.extend(hardly.map(|bolt| {
-                let of = names.get(bolt).map_or_else(String::new, |name| format!(" of {name}"));
-                format!(
-                    "the data hardly determine any stiffness{of}{}: each has a deviation of more than half of its value",
-                    joint.place()
-                )
-            }));
+            let hardly: Vec<String> = hardly.map(|unknown| unknown.label(names)).collect();
+            if !hardly.is_empty() {
+                reasons.push(format!(
+                    "the data hardly determine {}{}: {} more than half of the value",
+                    hardly.join(" and "),
+                    joint.place(),
+                    match hardly.len() {
+                        1 => "its deviation is",
+                        _ => "their deviations are",
+                    }
+                ));
+            }
         }
         let diagonal = joint.free.iter().map(|free| free.stiffness.diagonal());
         for (bolt, _) in diagonal.enumerate().filter(|(_, k)| k.max() <= 0.0) {

@@ -30,6 +30,7 @@ mod slope;
 mod starts;
 mod structures;
 mod suspect;
+mod taking_part;
 
 pub use budget::{Budget, Prior, priors};
 pub use cause::{Cause, Group, MeasuredSet, Side};

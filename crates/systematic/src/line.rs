@@ -55,6 +55,8 @@ pub(crate) struct Terms {
     pub(crate) measured_by_cause: [Vec<Option<Vec<Complex64>>>; 2],
     /// |H^C| at each entry
     pub(crate) magnitude: Vec<f64>,
+    /// What smooth fits predict in place of that, beside it.
+    pub(crate) apart: Vec<f64>,
 }
 
 impl<'t> Task<'t> {

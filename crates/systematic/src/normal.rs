@@ -146,20 +146,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Whether the substructures' noise moves what is predicted by less than this part of it, at every entry: beyond, a line is not
-/// linear in them. Decided by data and variances alone, never by the residual.
-pub(crate) fn is_linear(terms: &Terms, most: f64) -> bool {
-    (0..terms.magnitude.len()).all(|e| {
-        let moved: f64 = terms
-            .labelled_variance
-            .iter()
-            .enumerate()
-            .map(|(s, variance)| terms.by_labelled[(e, s)].norm_sqr() * variance)
-            .sum();
-        moved.sqrt() < most * terms.magnitude[e]
-    })
-}
-
 /// The structures' receptances as measured, without the causes.
 pub(crate) fn as_measured(task: &Task<'_>, line: usize, point: &Point) -> Labelled {
     [super::cause::Side::A, super::cause::Side::B].map(|side| match task.experiment.side(side) {

@@ -8,9 +8,10 @@ use super::budget::Prior;
 use super::estimate::{Estimate, Settings, of};
 use super::experiment::Experiment;
 use super::line::{Point, Task};
-use super::normal::{Scatter, Share, Whitened, as_measured, is_linear};
-use super::search::{Found, TOLERANCE, keeps_its_frequency, step, summed};
+use super::normal::{Scatter, Share, Whitened, as_measured};
+use super::search::{Found, TOLERANCE, step, summed};
 use super::structures::Recomputations;
+use super::taking_part::{is_linear, keeps_its_frequency};
 
 /// Gauss–Newton steps at most.
 const MOST_STEPS: usize = 20;

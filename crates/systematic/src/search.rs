@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::cause::{Cause, Side};
 use super::estimate::Settings;
 use super::experiment::{Experiment, Structure};
 use super::line::{Labelled, Point, Task, Terms};
-use super::normal::{Scatter, Share, Whitened, as_measured, is_linear};
+use super::normal::{Scatter, Share, Whitened, as_measured};
 use super::structures::Recomputations;
+use super::taking_part::{is_linear, keeps_its_frequency, still_linear};
 
 /// The structures' receptances stay what was measured until steps are below this part of a standard deviation …
 const NEAR: f64 = 0.1;
@@ -28,6 +28,8 @@ const LONG: f64 = 1.0;
 const SHORTEST_PART: f64 = 0.04;
 /// A search that finds no way down more often than this, one time after the other, is given up.
 const MOST_STUCK: usize = 4;
+/// A search near its end leaves lines out so often that are not linear there.
+const MOST_CHECKS: usize = 3;
 /// Of a search that has used up its steps, the last one may have been so many standard deviations long.
 const TOLERABLE: f64 = 0.3;
 /// Prior standard deviations that a cause may move in one step.
@@ -36,8 +38,6 @@ const LARGEST_STEP: f64 = 1.5;
 const LARGEST_PARTS: [f64; 2] = [0.3, 1.0];
 /// By what inflated noise of the assembly shrinks from step to step.
 const ANNEALING: f64 = 0.6;
-/// Of two shifts of the frequency by two prior standard deviations at most this is looked at.
-const LARGEST_SHIFT: f64 = 0.008;
 
 /// How many times as large as they are the standard deviations of each assembly are taken to be: at the beginning, and where the
 /// search may come to rest. What is left shrinks from step to step.
@@ -117,6 +117,7 @@ pub(crate) fn search(
     let mut rests = !has_labelled;
     let mut before: Option<DVector<f64>> = None;
     let mut stuck = 0;
+    let mut checks = 0;
     for iteration in 0..settings.most_iterations {
         let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
         let frozen = !rests;
@@ -160,6 +161,14 @@ pub(crate) fn search(
         rests |= inflated == inflation.to
             && part == 1.0
             && (largest < NEAR || iteration + LAST >= settings.most_iterations);
+        if !frozen && part == 1.0 && largest < TOLERABLE && checks < MOST_CHECKS {
+            let still = still_linear(task, &lines, &point, &recomputed, settings);
+            if still.len() < lines.len() {
+                checks += 1;
+                lines = still;
+                continue;
+            }
+        }
         let has_settled = !frozen && part == 1.0 && largest < TOLERANCE && iteration > 1;
         if has_settled || iteration + 1 == settings.most_iterations {
             drop(whitened);
@@ -387,25 +396,4 @@ fn allowed(
         part = part.min(LARGEST_STEP / moved);
     }
     part
-}
-
-/// Whether a line is not moved much by the frequency scales that the budget allows: there the first order in them fails.
-pub(crate) fn keeps_its_frequency(task: &Task<'_>, line: usize, settings: &Settings) -> bool {
-    [Side::A, Side::B].into_iter().all(|side| {
-        let prior = task
-            .priors
-            .iter()
-            .find(|prior| prior.cause == Cause::Frequency(side));
-        let (Some(prior), Structure::Measured(measured)) = (prior, task.experiment.side(side))
-        else {
-            return true;
-        };
-        let shift = (2.0 * prior.standard_deviation).min(LARGEST_SHIFT);
-        [shift, -shift].into_iter().all(|epsilon| {
-            let ratios = task.ratios(side, line, epsilon);
-            let entries = measured.functions.entries.iter().zip(ratios);
-            let mut measured = entries.filter(|(entry, _)| !entry.measurements.is_empty());
-            measured.all(|(_, ratio)| (ratio - 1.0).norm() < settings.most_shifted)
-        })
-    })
 }

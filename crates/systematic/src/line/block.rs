@@ -28,6 +28,11 @@ struct Block {
     rows: DMatrix<Complex64>,
     by_labelled: DMatrix<Complex64>,
     magnitude: Vec<f64>,
+    apart: Vec<f64>,
+}
+
+fn listed(blocks: &[Block], part: fn(&Block) -> &Vec<f64>) -> Vec<f64> {
+    blocks.iter().flat_map(part).copied().collect()
 }
 
 /// Matrices with equally many columns, one below the other.
@@ -113,10 +118,8 @@ impl Task<'_> {
             labelled_variance: self.labelled_variance(line, point, &smooth),
             measured,
             measured_by_cause: at.measured_by_cause,
-            magnitude: blocks
-                .iter()
-                .flat_map(|block| block.magnitude.iter().copied())
-                .collect(),
+            magnitude: listed(&blocks, |block| &block.magnitude),
+            apart: listed(&blocks, |block| &block.apart),
         })
     }
 
@@ -233,9 +236,14 @@ impl Task<'_> {
                 first += experiment.labelled(if side == 0 { Side::A } else { Side::B });
             }
         }
+        let apart = entries.iter().map(|entry| {
+            let smooth = smooth_coupled.receptance[entry.place];
+            (smooth - coupled.receptance[entry.place]).norm()
+        });
         Some(Block {
             residual,
             rows,
+            apart: apart.collect(),
             by_labelled,
             magnitude: std::iter::zip(entries, beside)
                 .map(|(entry, beside)| (coupled.receptance[entry.place] + beside).norm())

@@ -72,3 +72,35 @@ pub(crate) fn keeps_its_frequency(task: &Task<'_>, line: usize, settings: &Setti
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+    use num_complex::Complex64;
+
+    use super::*;
+
+    /// One function of one, and one receptance with 1 % of noise that moves it so many times as much.
+    fn line(sensitivity: f64, apart: f64) -> Terms {
+        Terms {
+            residual: DVector::zeros(1),
+            rows: DMatrix::zeros(1, 0),
+            by_labelled: DMatrix::from_element(1, 1, Complex64::from(sensitivity)),
+            measured: [Vec::new(), Vec::new()],
+            labelled_variance: vec![1e-4],
+            measured_by_cause: [Vec::new(), Vec::new()],
+            magnitude: vec![1.0],
+            apart: vec![apart],
+        }
+    }
+
+    #[test]
+    fn a_line_is_linear_where_neither_noise_nor_a_smooth_fit_moves_it_far() {
+        let takes_part = |sensitivity, apart| is_linear(&line(sensitivity, apart), 0.3);
+        assert!(takes_part(1.0, 0.0) && takes_part(29.0, 0.0));
+        assert!(!takes_part(31.0, 0.0));
+        // 5 % of it, and 5 times the noise
+        assert!(takes_part(0.0, 0.049) && takes_part(4.0, 0.19));
+        assert!(!takes_part(0.0, 0.051) && !takes_part(4.0, 0.21));
+    }
+}

@@ -13,11 +13,11 @@ fn bench() -> Bench {
     bench
 }
 
-/// They can be read and computed with; that no body moves as the one mode says is another matter.
+/// They can be read and computed with; that no body moves as the one mode says is another matter, and a stiffness comes out negative.
 #[test]
 fn the_data_that_the_others_are_made_from_are_right() {
-    let outcome = bench().done(IDENTIFY);
-    has(&outcome.stderr, &["more than noise", "is not noise"]);
+    let reasons = ["more than noise", "is not noise", "the data do not determine k_yy"];
+    bench().unusable(IDENTIFY, &reasons);
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use crate::bench::{Bench, IDENTIFY, PNG};
 use crate::rig;
-use bolted_joint_testing::has;
 
 const MODES: &str = include_str!("../data/studies/modes.toml");
 
@@ -16,7 +15,11 @@ fn bench() -> Bench {
 /// They can be read and computed with; that no body moves as the one mode says is another matter, and a stiffness comes out negative.
 #[test]
 fn the_data_that_the_others_are_made_from_are_right() {
-    let reasons = ["more than noise", "is not noise", "the data do not determine k_yy"];
+    let reasons = [
+        "more than noise",
+        "is not noise",
+        "the data do not determine k_yy",
+    ];
     bench().unusable(IDENTIFY, &reasons);
 }
 

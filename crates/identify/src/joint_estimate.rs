@@ -149,20 +149,30 @@ impl JointEstimate {
     }
 
     /// The stiffnesses on the diagonal that are not known to half of their size, joint by joint: of several joints any, as the
-    /// others' numbers hang on it, and of a single one those of which none is known better.
+    /// others' numbers hang on it, but for one that is known to have no effect; and of a single one those of which none is known
+    /// better.
     pub(super) fn hardly_determined(&self) -> Vec<&Unknown> {
-        let deviations = self.covariance.standard_deviation();
-        let all = self.covariance.unknowns.iter().zip(&deviations);
-        let direct: Vec<_> = all
-            .filter(|(unknown, _)| unknown.is_direct_stiffness())
-            .collect();
-        let is_open = |(unknown, deviation): &&(&'_ Unknown, &f64)| {
+        let covariance = &self.covariance;
+        let deviations = covariance.standard_deviation();
+        let direct = |index: &usize| covariance.unknowns[*index].is_direct_stiffness();
+        let direct: Vec<usize> = (0..deviations.len()).filter(direct).collect();
+        let are_several = self.free.len() > 1;
+        let is_open = |index: &usize| {
+            let unknown = &covariance.unknowns[*index];
             let size = unknown.value(&self.free[unknown.joint]).abs();
-            **deviation > UNRELIABLE * size
+            let least = if are_several {
+                covariance.negligible[*index]
+            } else {
+                0.0
+            };
+            deviations[*index] > UNRELIABLE * size.max(least)
         };
-        let open: Vec<&Unknown> = direct.iter().filter(is_open).map(|(of, _)| *of).collect();
-        match self.free.len() > 1 || open.len() == direct.len() {
-            true => open,
+        let open: Vec<usize> = direct.iter().copied().filter(is_open).collect();
+        match are_several || open.len() == direct.len() {
+            true => open
+                .iter()
+                .map(|&index| &covariance.unknowns[index])
+                .collect(),
             false => Vec::new(),
         }
     }

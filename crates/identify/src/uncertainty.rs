@@ -141,12 +141,9 @@ pub(super) fn sizes(layout: &Layout, values: &[f64], negligible: &[f64]) -> Vec<
             entry.map_or(0.0, |entry| values[matrix + entry].max(0.0))
         };
         let bound = (of(i, i) * of(j, j)).sqrt();
-        let own = if i == j {
-            of(i, i)
-        } else {
-            values[index].abs()
-        };
-        own.max(bound).max(negligible[index])
+        // on the diagonal the bound is the value itself
+        let coupling = if i == j { 0.0 } else { values[index].abs() };
+        coupling.max(bound).max(negligible[index])
     };
     (0..values.len()).map(size).collect()
 }

@@ -11,7 +11,7 @@
 //! use std::path::Path;
 //!
 //! use bolted_joint::check::inspect;
-//! use bolted_joint::export::{ExportOptions, FmiVersion, Interface, Timestamp, fmu_bytes};
+//! use bolted_joint::export::{ExportOptions, FmiVersion, Interface, StepWish, Timestamp, fmu_bytes};
 //! use bolted_joint::identify::{Study, identify};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -27,7 +27,7 @@
 //!     interface: Interface::Element,
 //!     version: FmiVersion::V3,
 //!     model_identifier: None,
-//!     step_size_max_s: None,
+//!     step: StepWish::Accurate,
 //!     platforms: None,
 //!     preload_n_m: None,
 //!     extrapolate: false,

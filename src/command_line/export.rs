@@ -9,8 +9,8 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use bolted_joint::export::{
-    self as fmu, ExportError, ExportOptions, Exported, Interface, StepChoice, StepSize, Timestamp,
-    fmu_bytes,
+    self as fmu, ExportError, ExportOptions, Exported, Interface, StepChoice, StepSize, StepWish,
+    Timestamp, fmu_bytes,
 };
 use bolted_joint::joint::JointFile;
 use bolted_joint::show::FileKind;
@@ -39,6 +39,14 @@ pub(super) struct ExportArguments {
     /// Longest Runge–Kutta step of a lap FMU, s [default: from its fastest mode]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     step_size_max: Option<f64>,
+    /// Part of their largest values that motions and joint loads of a lap FMU may be wrong by: its step is as long as that allows
+    #[arg(
+        long,
+        value_name = "PART",
+        allow_hyphen_values = true,
+        conflicts_with = "step_size_max"
+    )]
+    step_error: Option<f64>,
     /// Preload at which a joint over the preload is frozen, N·m [default: the FMU has the preload as an input]
     #[arg(long, value_name = "TORQUE", allow_hyphen_values = true)]
     preload: Option<f64>,
@@ -150,7 +158,11 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     let options = ExportOptions {
         version: arguments.fmi.map_or_else(Default::default, Into::into),
         model_identifier: arguments.model_identifier.clone(),
-        step_size_max_s: arguments.step_size_max,
+        step: match (arguments.step_size_max, arguments.step_error) {
+            (Some(longest_s), _) => StepWish::AtMost(longest_s),
+            (None, Some(part)) => StepWish::Error(part),
+            (None, None) => StepWish::Accurate,
+        },
         platforms: arguments.platforms.clone().or_else(platforms),
         preload_n_m: arguments.preload,
         extrapolate: arguments.extrapolate,
@@ -183,7 +195,7 @@ pub(super) fn options(interface: Interface) -> Result<ExportOptions, CliError> {
         interface,
         version: fmu::FmiVersion::default(),
         model_identifier: None,
-        step_size_max_s: None,
+        step: StepWish::Accurate,
         platforms: platforms(),
         preload_n_m: None,
         extrapolate: false,
@@ -262,6 +274,7 @@ fn steps(step: &StepSize) -> String {
     let why = match step.choice {
         StepChoice::Given => "as given".to_owned(),
         StepChoice::Accuracy => format!("for |λ|max = {} 1/s", number(step.largest_modulus, 3)),
+        StepChoice::Error { found } => format!("error {}", number(found, 2)),
         StepChoice::NoModes => "nothing moves by itself".to_owned(),
     };
     format!("RK4 of at most {} s, {why}", number(step.longest_s, 2))

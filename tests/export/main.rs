@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 use ::zip::ZipArchive;
 use bolted_joint::export::{
-    ExportError, ExportOptions, Exported, FmiVersion, Interface, Timestamp, fmu_bytes,
+    ExportError, ExportOptions, Exported, FmiVersion, Interface, StepWish, Timestamp, fmu_bytes,
 };
 use bolted_joint::joint::JointFile;
 use bolted_joint_interface::Interface as Declared;
@@ -37,7 +37,7 @@ fn options(interface: Interface) -> Result<ExportOptions, ExportError> {
         interface,
         version: FmiVersion::V3,
         model_identifier: None,
-        step_size_max_s: None,
+        step: StepWish::Accurate,
         platforms: None,
         preload_n_m: None,
         extrapolate: false,
@@ -136,7 +136,7 @@ fn what_cannot_be_exported_is_refused_with_a_reason() {
     begins(&refusal(&m10, &at(10.0)), expected);
 
     let with_step = |options: &ExportOptions, step_s| ExportOptions {
-        step_size_max_s: Some(step_s),
+        step: StepWish::AtMost(step_s),
         ..options.clone()
     };
     let message = refusal(&m10, &with_step(&element, 1e-5));

@@ -1,6 +1,6 @@
 //! The FMU's variables: which there are with and without rotation, and what they start with.
 
-use bolted_joint::export::{ExportOptions, Interface, fmu_bytes};
+use bolted_joint::export::{ExportOptions, Interface, StepWish, fmu_bytes};
 use bolted_joint::joint::JointFile;
 use bolted_joint_interface::{Expanded, Interface as Declared, Joints, Rows};
 
@@ -114,7 +114,7 @@ fn a_joint_without_rotation_has_no_rotational_variable() {
 fn a_given_stable_step_is_taken() {
     let file = JointFile::read(&data("pirdayr-ex03.joint.json")).unwrap();
     let options = ExportOptions {
-        step_size_max_s: Some(2e-4),
+        step: StepWish::AtMost(2e-4),
         ..options(Interface::Lap).unwrap()
     };
     let fmu = fmu_bytes(&file, "", &options).unwrap();

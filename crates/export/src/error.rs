@@ -48,6 +48,43 @@ pub enum ExportError {
         /// The step size, s.
         found_s: f64,
     },
+    /// An error of the steps was given for the FMU that takes no steps.
+    #[error(
+        "--step-error: found {found:?} for the element, expected none: the element has no states and takes no steps; \
+         leave it out, or export as lap"
+    )]
+    ErrorOfElement {
+        /// The error, as a part of the largest values.
+        found: f64,
+    },
+    /// An error of the steps that no step can have.
+    #[error(
+        "--step-error: found {found:?}, expected a number from 1e-12 to 0.1: the part of their largest values that motions and \
+         joint loads may be wrong by; leave it out for an accurate step"
+    )]
+    ErrorOutOfRange {
+        /// The error.
+        found: f64,
+    },
+    /// No step is short enough for the error that was asked for.
+    #[error(
+        "--step-error: found {wanted:?}, but steps of {step_s:.2e} s still have an error of {reached:.1e}; expected at least that, \
+         or a shorter step by --step-size-max"
+    )]
+    ErrorOutOfReach {
+        /// The error, as a part of the largest values.
+        wanted: f64,
+        /// What was reached.
+        reached: f64,
+        /// The shortest step that was tried, s.
+        step_s: f64,
+    },
+    /// A motion that would show the error of the steps does not stay finite.
+    #[error(
+        "--step-error: the lap's motion under loads that open the joint does not stay finite, or nothing opens it, so that no \
+         error can be measured; give a step by --step-size-max"
+    )]
+    ErrorNotMeasured,
     /// A step size that is not positive and finite.
     #[error(
         "step size: found {found_s:?} s, expected a finite number of seconds greater than zero; leave --step-size-max out for an accurate one"

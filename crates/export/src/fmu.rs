@@ -14,9 +14,9 @@ use super::nominal;
 use super::package::{Entry, Packed, packed};
 use super::parameters::start_value;
 use super::platforms::Library;
-use super::reference_run::ReferenceRun;
+use super::reference_run::{ReferenceRun, step_of_error};
 use super::start_file::{laws_line, parameter_lines, start_file, table_lines};
-use super::step::{Experiment, StepSize};
+use super::step::{Experiment, StepSize, StepWish};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
@@ -31,8 +31,8 @@ pub struct ExportOptions {
     pub version: FmiVersion,
     /// Name of the library and of the class that tools make of the FMU; made of the model's name where it is not given.
     pub model_identifier: Option<String>,
-    /// Longest Runge–Kutta step of a lap, s; picked from its eigenvalues where it is not given.
-    pub step_size_max_s: Option<f64>,
+    /// The Runge–Kutta step of a lap.
+    pub step: StepWish,
     /// Folder with a folder for each further platform, such as `x86_64-windows`, that holds its FMU library.
     pub platforms: Option<PathBuf>,
     /// Preload (N·m) at which a joint over the preload is exported as a constant one. Where it is not given, the FMU has the
@@ -310,9 +310,10 @@ fn lap_facts(
     options: &ExportOptions,
 ) -> Result<Option<LapFacts>, ExportError> {
     match (options.interface, subject.file.joint.dofs) {
-        (Interface::Element, _) => match options.step_size_max_s {
-            Some(found_s) => Err(ExportError::StepOfElement { found_s }),
-            None => Ok(None),
+        (Interface::Element, _) => match options.step {
+            StepWish::AtMost(found_s) => Err(ExportError::StepOfElement { found_s }),
+            StepWish::Error(found) => Err(ExportError::ErrorOfElement { found }),
+            StepWish::Accurate => Ok(None),
         },
         (Interface::Lap, dofs) => {
             with_dofs!(dofs.size(), D => sized_lap_facts::<D>(subject, options)).map(Some)
@@ -335,7 +336,7 @@ fn sized_lap_facts<const D: usize>(
         .iter()
         .map(JointFile::tangent_laps)
         .collect::<Result<Vec<Vec<Lap<D>>>, _>>()?;
-    let mut step = StepSize::choose(&tangents.concat(), options.step_size_max_s)?;
+    let mut step = StepSize::choose(&tangents.concat(), options.step)?;
     if subject.over_preload.is_some() {
         step = step.for_energy();
     }
@@ -350,12 +351,22 @@ fn sized_lap_facts<const D: usize>(
             *all = least(*all, own);
         }
     }
-    Ok(LapFacts {
+    let facts = |step: StepSize| LapFacts {
         step,
         experiment: Experiment::of_lap(spectrum.as_ref(), &step),
         modes: spectrum.as_ref().map(modes).unwrap_or_default(),
-        escape_amplitude,
-    })
+        escape_amplitude: escape_amplitude.clone(),
+    };
+    let facts_of_accurate = facts(step);
+    match options.step {
+        StepWish::Accurate | StepWish::AtMost(_) => Ok(facts_of_accurate),
+        StepWish::Error(wanted) => {
+            let file = subject.file;
+            let of_error =
+                step_of_error(&lap, file, subject.over_preload, &facts_of_accurate, wanted)?;
+            Ok(facts(of_error))
+        }
+    }
 }
 
 /// The oscillating modes, by frequency.

@@ -46,5 +46,5 @@ pub use start_file::{
     AssemblyStartFile, ListedVariable, StartFile, dofs_text, laws_line, parameter_lines,
     table_lines,
 };
-pub use step::{StepChoice, StepSize};
+pub use step::{StepChoice, StepSize, StepWish};
 pub use system::{Dialect, DrawnJoint, ExportedSystem, SystemOptions, assembly_system};

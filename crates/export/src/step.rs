@@ -37,11 +37,27 @@ pub struct StepSize {
     pub stability_limit_s: Option<f64>,
 }
 
+/// What the Runge–Kutta step of a lap shall be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepWish {
+    /// One with which the fastest mode is accurate.
+    Accurate,
+    /// At most so long, s.
+    AtMost(f64),
+    /// As long as motions and joint loads are wrong by no more than this part of their largest values.
+    Error(f64),
+}
+
 /// Why a step size was taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepChoice {
     /// The user gave it.
     Given,
+    /// The user said how large the error may be: what it is in the reference run, as a part of the largest values there.
+    Error {
+        /// With this step.
+        found: f64,
+    },
     /// The fastest mode drifts by 1e-6 rad in a period with it.
     Accuracy,
     /// The model has no modes that would set one.
@@ -63,16 +79,20 @@ impl StepSize {
                 longest_s: rounded_down(PART_FOR_ENERGY * self.longest_s, 2),
                 ..self
             },
-            StepChoice::Given | StepChoice::NoModes => self,
+            StepChoice::Given | StepChoice::Error { .. } | StepChoice::NoModes => self,
         }
     }
 
-    /// Takes the step that is `given`, or picks one from the eigenvalues of the model, linear about every place that it
-    /// shall be good for.
+    /// Takes the step that is given, or picks one from the eigenvalues of the model, linear about every place that it
+    /// shall be good for. Where an error is wished for, that is where its search begins.
     pub(super) fn choose<const D: usize>(
         laps: &[Lap<D>],
-        given_s: Option<f64>,
+        wish: StepWish,
     ) -> Result<Self, ExportError> {
+        let given_s = match wish {
+            StepWish::AtMost(given_s) => Some(given_s),
+            StepWish::Accurate | StepWish::Error(_) => None,
+        };
         let spectra = laps.iter().map(Lap::spectrum).collect::<Option<Vec<_>>>();
         let spectra = spectra
             .filter(|spectra| !spectra.is_empty())
@@ -239,7 +259,8 @@ mod tests {
     #[test]
     fn the_limit_is_that_of_the_fastest_mode() {
         // Undamped: |λ| = √((k + 2 k12)/m) on the imaginary axis.
-        let step = StepSize::choose(&[lap(2.35, 10.56e5, 0.0, 4.56e6, 0.0)], None).unwrap();
+        let step =
+            StepSize::choose(&[lap(2.35, 10.56e5, 0.0, 4.56e6, 0.0)], StepWish::Accurate).unwrap();
         let fastest = f64::sqrt((10.56e5 + 2.0 * 4.56e6) / 2.35);
         let limit = step.stability_limit_s.unwrap();
         assert!((limit * fastest / STABILITY_LIMIT_IMAGINARY - 1.0).abs() < 1e-5);
@@ -248,7 +269,7 @@ mod tests {
         assert!(step.longest_s <= accurate && step.longest_s > 0.95 * accurate);
         assert_eq!(step.choice, StepChoice::Accuracy);
         // Overdamped: λ ≈ −2 c12/m on the real axis.
-        let step = StepSize::choose(&[lap(1.0, 0.0, 0.0, 0.0, 5e3)], None).unwrap();
+        let step = StepSize::choose(&[lap(1.0, 0.0, 0.0, 0.0, 5e3)], StepWish::Accurate).unwrap();
         let limit = step.stability_limit_s.unwrap();
         assert!((limit * 1e4 / STABILITY_LIMIT_REAL - 1.0).abs() < 1e-5);
     }
@@ -256,9 +277,9 @@ mod tests {
     #[test]
     fn a_given_step_must_be_stable() {
         let model = lap(2.35, 10.56e5, 1.39, 4.56e6, 0.54);
-        let step = StepSize::choose(&[model], Some(2e-4)).unwrap();
+        let step = StepSize::choose(&[model], StepWish::AtMost(2e-4)).unwrap();
         assert_eq!((step.longest_s, step.choice), (2e-4, StepChoice::Given));
-        let message = StepSize::choose(&[model], Some(2e-3))
+        let message = StepSize::choose(&[model], StepWish::AtMost(2e-3))
             .unwrap_err()
             .to_string();
         // √((10.56e5 + 2·4.56e6)/2.35) = 2080.9 1/s; 2.828/2080.9 = 1.359e-3 s
@@ -266,7 +287,7 @@ mod tests {
             assert!(message.contains(fragment), "{message}");
         }
         for bad in [0.0, -1e-5, f64::NAN, f64::INFINITY] {
-            let refused = StepSize::choose(&[model], Some(bad)).unwrap_err();
+            let refused = StepSize::choose(&[model], StepWish::AtMost(bad)).unwrap_err();
             assert!(matches!(refused, ExportError::StepNotPositive { .. }));
         }
     }
@@ -277,21 +298,26 @@ mod tests {
         let stiff = lap(2.35, 10.56e5, 1.39, 9.0e6, 0.54);
         let damped = lap(2.35, 10.56e5, 1.39, 4.56e6, 1e5);
         for fast in [stiff, damped] {
-            let both = StepSize::choose(&[slow, fast], None).unwrap();
-            assert_eq!(both, StepSize::choose(&[fast], None).unwrap());
-            assert!(both.longest_s < StepSize::choose(&[slow], None).unwrap().longest_s);
+            let both = StepSize::choose(&[slow, fast], StepWish::Accurate).unwrap();
+            assert_eq!(both, StepSize::choose(&[fast], StepWish::Accurate).unwrap());
+            assert!(
+                both.longest_s
+                    < StepSize::choose(&[slow], StepWish::Accurate)
+                        .unwrap()
+                        .longest_s
+            );
         }
         // stable about rest alone
         let given_s = 1e-4;
-        assert!(StepSize::choose(&[slow], Some(given_s)).is_ok());
-        let refused = StepSize::choose(&[slow, damped], Some(given_s));
+        assert!(StepSize::choose(&[slow], StepWish::AtMost(given_s)).is_ok());
+        let refused = StepSize::choose(&[slow, damped], StepWish::AtMost(given_s));
         assert!(matches!(refused, Err(ExportError::StepUnstable { .. })));
     }
 
     #[test]
     fn a_model_without_modes_still_has_a_step() {
         let model = lap(1.0, 0.0, 0.0, 0.0, 0.0);
-        let step = StepSize::choose(&[model], None).unwrap();
+        let step = StepSize::choose(&[model], StepWish::Accurate).unwrap();
         assert_eq!(step.choice, StepChoice::NoModes);
         let experiment = Experiment::of_lap(model.spectrum().as_ref(), &step);
         assert!(experiment.stop_s > 0.0 && experiment.communication_step_s > 0.0);
@@ -300,7 +326,7 @@ mod tests {
     #[test]
     fn the_suggested_simulation_shows_the_slowest_mode_and_resolves_the_fastest() {
         let model = lap(2.35, 10.56e5, 1.39, 4.56e6, 0.54);
-        let step = StepSize::choose(&[model], None).unwrap();
+        let step = StepSize::choose(&[model], StepWish::Accurate).unwrap();
         let experiment = Experiment::of_lap(model.spectrum().as_ref(), &step);
         // 20 periods of 670.35 rad/s are 0.187 s.
         assert_eq!(experiment.stop_s, 0.1);

@@ -16,6 +16,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     for (option, given) in [
         ("--as", arguments.interface.is_some()),
         ("--step-size-max", arguments.step_size_max.is_some()),
+        ("--step-error", arguments.step_error.is_some()),
         ("--preload", arguments.preload.is_some()),
     ] {
         if given {

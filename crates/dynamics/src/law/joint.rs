@@ -167,6 +167,13 @@ impl<const D: usize, N: Number> JointLaw<D, N> {
         self.on.iter().any(DofLaws::have_memory)
     }
 
+    /// Whether the joint remembers its motion in DOF `i`.
+    #[inline]
+    #[must_use]
+    pub fn remembers(&self, i: usize) -> bool {
+        self.on[i].have_memory()
+    }
+
     /// Whether a law of the joint has an inner state.
     #[inline]
     #[must_use]

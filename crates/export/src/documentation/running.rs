@@ -41,10 +41,14 @@ fn step_size(lap: &LapFacts, version: FmiVersion) -> String {
     let step = &lap.step;
     let reason = match step.choice {
         StepChoice::Accuracy => {
-            "picked so that the fastest mode drifts by at most 10<sup>−6</sup> rad in one of its periods"
+            "picked so that the fastest mode drifts by at most 10<sup>−6</sup> rad in one of its periods".to_owned()
         }
-        StepChoice::Given => "given by whoever exported the FMU",
-        StepChoice::NoModes => "a guess, for nothing in this model moves by itself",
+        StepChoice::Given => "given by whoever exported the FMU".to_owned(),
+        StepChoice::Error { found } => format!(
+            "picked so that motions and joint loads of the reference run are wrong by {} of their largest values",
+            number(found)
+        ),
+        StepChoice::NoModes => "a guess, for nothing in this model moves by itself".to_owned(),
     };
     let limit = match step.stability_limit_s {
         Some(limit_s) => format!(

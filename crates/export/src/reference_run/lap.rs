@@ -109,7 +109,7 @@ pub(super) fn run<const D: usize>(
 }
 
 /// Motion and energies at a time, and what the joint remembers then.
-type Moment<const D: usize> = (CountedState<D>, JointMemory<D>);
+pub(super) type Moment<const D: usize> = (CountedState<D>, JointMemory<D>);
 
 /// What goes on in the run.
 struct Course<const D: usize> {
@@ -137,7 +137,7 @@ impl<const D: usize> Course<D> {
 
 impl<const D: usize> Laws<D> {
     /// Whether the joint remembers, at any preload.
-    fn have_memory(&self) -> bool {
+    pub(super) fn have_memory(&self) -> bool {
         match self {
             Self::Constant(law) => law.has_memory(),
             Self::Table { .. } => self.at(0).has_memory(),
@@ -152,10 +152,10 @@ impl<const D: usize> Laws<D> {
 }
 
 /// What is integrated.
-struct System<'a, const D: usize> {
-    lap: &'a Lap<D>,
-    laws: &'a Laws<D>,
-    dofs: DofSet,
+pub(super) struct System<'a, const D: usize> {
+    pub(super) lap: &'a Lap<D>,
+    pub(super) laws: &'a Laws<D>,
+    pub(super) dofs: DofSet,
 }
 
 impl<const D: usize> System<'_, D> {
@@ -169,6 +169,16 @@ impl<const D: usize> System<'_, D> {
             law_rate: JointLaw::NONE,
             loads: *loads,
         }
+    }
+
+    /// Motions of both bodies and the joint's loads at communication point number `step`.
+    pub(super) fn values(&self, step: usize, moment: &Moment<D>) -> Vec<f64> {
+        let (CountedState { state, .. }, memory) = moment;
+        let law = self.laws.at(step.saturating_sub(1) / STEPS_A_LEVEL);
+        let motions = [&state.a, &state.b].into_iter();
+        let motions = motions.flat_map(|motion| [motion.displacement, motion.velocity]);
+        let loads = law.load_on_b_after(memory, &state.relative());
+        motions.chain([loads]).flatten().collect()
     }
 
     /// From communication point to communication point, from rest.
@@ -214,13 +224,13 @@ impl<const D: usize> System<'_, D> {
 }
 
 /// Communication steps of the run.
-struct Plan {
-    step_s: f64,
+pub(super) struct Plan {
+    pub(super) step_s: f64,
     substeps: NonZeroU32,
 }
 
 impl Plan {
-    fn new(facts: &LapFacts, have_memory: bool) -> Option<Self> {
+    pub(super) fn new(facts: &LapFacts, have_memory: bool) -> Option<Self> {
         let longest_s = facts.step.longest_s;
         let most_steps = if have_memory {
             MOST_STEPS_WITH_MEMORY
@@ -238,7 +248,10 @@ impl Plan {
     }
 
     /// Loads that open the joint as far as wanted in one DOF, and no further in the other.
-    fn levels<const D: usize>(&self, system: &System<'_, D>) -> Option<Vec<LapLoads<D>>> {
+    pub(super) fn levels<const D: usize>(
+        &self,
+        system: &System<'_, D>,
+    ) -> Option<Vec<LapLoads<D>>> {
         let joint = &system.lap.joint;
         let wanted = stimulus::relative_motion(joint, system.dofs);
         let amplitude: [f64; D] = std::array::from_fn(|i| {
@@ -281,7 +294,16 @@ impl Plan {
         levels: &[LapLoads<D>],
         refinement: NonZeroU32,
     ) -> Option<Vec<Moment<D>>> {
-        let substeps = self.substeps.checked_mul(refinement)?;
+        self.states_of(system, levels, self.substeps.checked_mul(refinement)?)
+    }
+
+    /// The same with so many steps between communication points.
+    pub(super) fn states_of<const D: usize>(
+        &self,
+        system: &System<'_, D>,
+        levels: &[LapLoads<D>],
+        substeps: NonZeroU32,
+    ) -> Option<Vec<Moment<D>>> {
         let states = system.states(levels, self.step_s, substeps);
         let last = states.last()?.0.state;
         let finite = [last.a, last.b].iter().all(|motion| {

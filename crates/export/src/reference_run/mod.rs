@@ -6,6 +6,7 @@
 mod element;
 mod files;
 mod lap;
+mod step_of_error;
 pub(super) mod stimulus;
 
 use bolted_joint_dynamics::{
@@ -13,6 +14,8 @@ use bolted_joint_dynamics::{
     law::remembered as remembered_by_laws, with_dofs,
 };
 use bolted_joint_interface::{Interface as Declared, Role};
+
+pub(super) use step_of_error::step_of_error;
 
 use super::archive::File;
 use super::fmu::LapFacts;

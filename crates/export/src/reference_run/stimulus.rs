@@ -58,15 +58,14 @@ pub(in super::super) fn relative_motion<const D: usize>(
     law: &JointLaw<D>,
     dofs: DofSet,
 ) -> [f64; D] {
-    let part = if law.has_memory() {
-        TIMES_OF_MEMORY
-    } else {
-        PART_OF_NONLINEAR
-    };
     std::array::from_fn(|i| {
         let small_motion = small_motion(dofs.row(i).kind);
+        let amplitude = law.nonlinear_amplitude()[i];
+        if law.remembers(i) && amplitude.is_finite() && amplitude > 0.0 {
+            return TIMES_OF_MEMORY * amplitude;
+        }
         // |k3| x³ = p² K x at x = p √(K/|k3|), and likewise for the terms of higher order
-        let nonlinear = part * law.nonlinear_amplitude()[i];
+        let nonlinear = PART_OF_NONLINEAR * amplitude;
         if law.linear.stiffness[i][i] > 0.0 && nonlinear.is_finite() && nonlinear > 0.0 {
             nonlinear.min(FURTHER * small_motion)
         } else {

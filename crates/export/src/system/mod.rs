@@ -14,6 +14,7 @@ use super::archive::File;
 use super::assembly::{AssemblyOptions, assembly_fmu};
 use super::fmu::{ExportOptions, Exported, fmu_bytes};
 use super::package::Packed;
+use super::step::StepWish;
 use super::{ExportError, FmiVersion, Interface};
 pub use draws::DrawnJoint;
 use draws::Draws;
@@ -145,7 +146,7 @@ fn element(joint: &PlacedJoint, options: &AssemblyOptions) -> Result<Exported, E
             interface: Interface::Element,
             version: options.version,
             model_identifier: None,
-            step_size_max_s: None,
+            step: StepWish::Accurate,
             platforms: options.platforms.clone(),
             preload_n_m: None,
             extrapolate: false,

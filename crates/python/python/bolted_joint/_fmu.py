@@ -50,6 +50,7 @@ def export(
     interface: str | None = None,
     fmi: int = 3,
     step_size_max_s: float | None = None,
+    step_error: float | None = None,
     preload_n_m: float | None = None,
     extrapolate: bool = False,
     platforms: str | os.PathLike[str] | None = None,
@@ -72,6 +73,8 @@ def export(
         Version of the FMI standard.
     step_size_max_s : float, optional
         Longest Runge–Kutta step of a lap, s.
+    step_error : float, optional
+        Part of their largest values that motions and joint loads of a lap may be wrong by; in place of ``step_size_max_s``.
     preload_n_m : float, optional
         Preload at which a joint over the preload is frozen, N·m.
     extrapolate : bool
@@ -104,6 +107,7 @@ def export(
             arguments += ["--as", interface]
         for option, value in [
             ("--step-size-max", step_size_max_s),
+            ("--step-error", step_error),
             ("--preload", preload_n_m),
             ("--platforms", platforms),
         ]:

@@ -274,7 +274,7 @@ fn steps(step: &StepSize) -> String {
     let why = match step.choice {
         StepChoice::Given => "as given".to_owned(),
         StepChoice::Accuracy => format!("for |λ|max = {} 1/s", number(step.largest_modulus, 3)),
-        StepChoice::Error { found } => format!("error {}", number(found, 2)),
+        StepChoice::Error { found, .. } => format!("error {}", number(found, 2)),
         StepChoice::NoModes => "nothing moves by itself".to_owned(),
     };
     format!("RK4 of at most {} s, {why}", number(step.longest_s, 2))

@@ -86,6 +86,33 @@ fn step_sizes_that_cannot_be_are_refused() {
     for (options, [one, two]) in cases {
         bench.refused(&format!("{EXPORT} {options}"), &["step size: ", one, two]);
     }
+    #[rustfmt::skip]
+    let errors = [
+        ("--step-error 1e-5", ["found 1e-5 for the element", "export as lap"]),
+        ("--as lap --step-error 0", ["found 0.0", "from 1e-12 to 0.1"]),
+        ("--as lap --step-error nan", ["found NaN", "from 1e-12 to 0.1"]),
+        ("--as lap --step-error 2", ["found 2.0", "leave it out for an accurate step"]),
+    ];
+    for (options, [one, two]) in errors {
+        bench.refused(&format!("{EXPORT} {options}"), &["--step-error: ", one, two]);
+    }
+}
+
+#[test]
+fn the_step_of_a_lap_follows_from_the_error_that_is_allowed() {
+    let bench = bench(JOINT);
+    let steps = ["1e-5", "1e-7", "1e-9"].map(|error| {
+        let command = format!("{EXPORT} --as lap --step-error {error} --json");
+        let exported = bench.done(&command).json();
+        exported["step_size_max_s"].as_f64().unwrap()
+    });
+    // of fourth order: a hundredth of the error takes steps of 0.316 times the length, and the search is as fine as 1/16
+    for pair in steps.windows(2) {
+        let ratio = pair[1] / pair[0];
+        assert!((0.28..0.36).contains(&ratio), "{steps:?}");
+    }
+    let said = bench.done(&format!("{EXPORT} --as lap --step-error 1e-6"));
+    assert!(said.stdout.contains(", error "), "{}", said.stdout);
 }
 
 #[test]

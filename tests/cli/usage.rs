@@ -17,6 +17,7 @@ fn wrong_usage_ends_with_2() {
         "export o.joint.json -o o.fmu --as spring",
         "export o.joint.json -o o.fmu --fmi 1",
         "export o.joint.json -o o.fmu --step-size-max small",
+        "export o.joint.json -o o.fmu --as lap --step-error 1e-6 --step-size-max 1e-5",
         "export -o o.fmu",
         "check",
         "check one two",

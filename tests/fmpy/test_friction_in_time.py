@@ -153,3 +153,22 @@ def test_a_lap_follows_the_located_turns(slave, law):
     most, least_order = (1e-6, 1.8) if law["law"] == "lugre" else (3e-8, 2.2)
     assert errors[1] < most
     assert order > least_order
+
+
+@pytest.mark.parametrize("law", [IWAN, VALANIS, DAHL, BOUC_WEN, LUGRE], ids=lambda law: law["law"])
+def test_its_steps_are_as_accurate_as_was_asked_for(slave, law):
+    file = changed(
+        joint(["y"], [[0.0]], [[0.0]], [0.0], {"a": body([1.0], [STIFFNESS], [DAMPING]), "b": body([1e12], [0.0], [0.0])}),
+        friction=[{"dof": "y", **law}],
+    )
+    times = END * np.arange(1, POINTS + 1) / POINTS
+    expected = in_scipy(law, times)
+    for wanted in (1e-3, 1e-5, 1e-7):
+        instance = slave(file, "lap", "--step-error", repr(wanted))
+        instance.initialise(**{"a.F": FORCE})
+        found = []
+        for index in range(POINTS):
+            instance.step(index * END / POINTS, END / POINTS)
+            found.append(instance.get("a.y", "a.v"))
+        error = (np.abs(np.array(found) - expected).max(axis=0) / np.abs(expected).max(axis=0)).max()
+        assert error < wanted

@@ -57,6 +57,8 @@ pub enum StepChoice {
     Error {
         /// With this step.
         found: f64,
+        /// The step that the fastest mode asks for, s.
+        of_modes_s: f64,
     },
     /// The fastest mode drifts by 1e-6 rad in a period with it.
     Accuracy,

@@ -44,7 +44,7 @@ fn step_size(lap: &LapFacts, version: FmiVersion) -> String {
             "picked so that the fastest mode drifts by at most 10<sup>−6</sup> rad in one of its periods".to_owned()
         }
         StepChoice::Given => "given by whoever exported the FMU".to_owned(),
-        StepChoice::Error { found } => format!(
+        StepChoice::Error { found, .. } => format!(
             "picked so that motions and joint loads of the reference run are wrong by {} of their largest values",
             number(found)
         ),

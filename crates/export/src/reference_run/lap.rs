@@ -10,7 +10,7 @@ use bolted_joint_dynamics::{
 use bolted_joint_joint::DofSet;
 
 use super::super::fmu::LapFacts;
-use super::super::step::rounded_down;
+use super::super::step::{StepChoice, rounded_down};
 use super::{LOAD, Laws, Names, ReferenceRun, entry, of_motions, remembered, stimulus, table};
 use crate::ExportError;
 
@@ -26,6 +26,8 @@ const PERIODS: f64 = 8.0;
 const MOST_STEPS: f64 = 2e4;
 /// … and these many where each of them follows what a joint remembers, at many times the cost.
 const MOST_STEPS_WITH_MEMORY: f64 = 5e3;
+/// They may be so many times as many where they are shorter than the modes ask for.
+const MOST_TIMES_OF_SHORTER: f64 = 10.0;
 /// Runge–Kutta steps in a communication step where nothing moves by itself.
 const STEPS_WITHOUT_MODES: f64 = 5.0;
 
@@ -237,7 +239,14 @@ impl Plan {
         } else {
             MOST_STEPS
         };
-        let most_s = most_steps * longest_s;
+        let most_s = match facts.step.choice {
+            // as long as with the step of the modes, so that the joint opens as far
+            StepChoice::Error { of_modes_s, .. } => {
+                let most_shorter_s = MOST_TIMES_OF_SHORTER * longest_s;
+                most_steps * longest_s.max(of_modes_s.min(most_shorter_s))
+            }
+            _ => most_steps * longest_s,
+        };
         let duration_s = match facts.modes.first() {
             Some(slowest) => (PERIODS / slowest.frequency_hz).min(most_s),
             None => STEPS_WITHOUT_MODES * longest_s * COMMUNICATION_STEPS as f64,

@@ -50,7 +50,10 @@ pub(in super::super) fn step_of_error<const D: usize>(
     let (count, found) = trials.fewest(wanted)?;
     Ok(StepSize {
         longest_s: rounded_down(trials.plan.step_s / f64::from(count.get()), 3),
-        choice: StepChoice::Error { found },
+        choice: StepChoice::Error {
+            found,
+            of_modes_s: facts.step.longest_s,
+        },
         ..facts.step
     })
 }

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from instances import both_versions
 from joints import body, changed, joint
+from test_friction_over_preload import Dahl, Valanis
 
 K, C, H = 2e6, 20.0, 1e-4
 IWAN = {"law": "iwan", "slip_force": 4000.0, "stiffness": 1.5e7, "exponent": -0.3, "ratio": 0.5}
@@ -109,6 +110,44 @@ def test_a_random_walk_of_iwan_s_law_is_that_of_the_reversal_stack(slave):
         assert abs(found[0] - K * u - load) < 1e-12 * 4000 + 1e-15 * abs(K * u), index
         assert found[1] == pytest.approx(heat, rel=1e-12, abs=1e-15), index
         assert found[2] == reversal, index
+
+
+@both_versions
+def test_in_model_exchange_too_the_walk_is_that_of_the_reversal_stack(model):
+    instance = model(changed(with_friction(IWAN), damping=[[0.0]]), "element")
+    instance.initialise()
+    instance.enter_continuous_time()
+    for index, (u, load, _, reversal) in enumerate(WALK):
+        # trials leave no trace
+        for trial in (u, -2 * u, u):
+            instance.set({"a.y": trial})
+            found = instance.get("b.F")[0] - K * trial
+        assert abs(found - load) < 1e-12 * 4000 + 1e-15 * abs(K * u), index
+        instance.fmu.setTime((index + 1) * H)
+        instance.fmu.completedIntegratorStep()
+        found = instance.get("b.F", "joint.iwan_reversal_y")
+        assert abs(found[0] - K * u - load) < 1e-12 * 4000 + 1e-15 * abs(K * u), index
+        assert found[1] == reversal, index
+
+
+@both_versions
+@pytest.mark.parametrize("law", [Dahl, Valanis], ids=lambda law: law.entry["law"])
+def test_in_model_exchange_an_element_on_a_random_path(model, law):
+    """The closed forms of each way, committed where the importer has completed a step. The laws whose loads are states are in
+    test_friction_exchange.py."""
+    instance, own = model(with_friction(law.entry), "element"), law()
+    instance.initialise()
+    instance.enter_continuous_time()
+    random = np.random.default_rng(5)
+    for index, u in enumerate(3e-4 * np.cumsum(random.uniform(-1, 1, 300)) / 4):
+        for trial in (u, -u, u):
+            instance.set({"a.y": trial})
+            found = instance.get("b.F")[0]
+            expected = (K + own.spring) * trial + own.load(trial, 1.0)
+            assert found == pytest.approx(expected, rel=1e-12, abs=1e-12 * own.entry["slip_force"]), index
+        instance.fmu.setTime((index + 1) * H)
+        instance.fmu.completedIntegratorStep()
+        own.commit(u, 1.0)
 
 
 def test_the_tangent_of_iwan_s_law_is_that_of_the_trial(slave):

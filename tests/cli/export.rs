@@ -94,7 +94,10 @@ fn step_sizes_that_cannot_be_are_refused() {
         ("--as lap --step-error 2", ["found 2.0", "leave it out for an accurate step"]),
     ];
     for (options, [one, two]) in errors {
-        bench.refused(&format!("{EXPORT} {options}"), &["--step-error: ", one, two]);
+        bench.refused(
+            &format!("{EXPORT} {options}"),
+            &["--step-error: ", one, two],
+        );
     }
 }
 

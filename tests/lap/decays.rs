@@ -35,6 +35,8 @@ const LEFT_OUT: f64 = 0.7;
 const PREDICTED: std::ops::RangeInclusive<f64> = 0.92..=0.98;
 /// Part of the durations that do: one for each draw, so that 60 leave 2.8 % of it open.
 const LASTING: std::ops::RangeInclusive<f64> = 0.88..=1.0;
+/// Part of the draws in which the law's own curve lies where the model's is said to be.
+const CURVE: std::ops::RangeInclusive<f64> = 0.9..=0.99;
 /// Part of the draws in which a run left out may be said not to be of the law, though it is.
 const WARNED: f64 = 0.05;
 
@@ -157,6 +159,41 @@ impl Told {
     }
 }
 
+/// How often the curve of the law lies where the model's own curve is said to be, at the beginning, the middle and the end of the
+/// record that was fitted: frequencies, and damping ratios.
+fn held_by_curve(found: &LapResponse, law: &LapResponse) -> [f64; 2] {
+    let of = |response: &'_ LapResponse| {
+        let run = response.backbones.iter().find(|run| !run.left_out);
+        run.unwrap().points.clone()
+    };
+    let (own, law) = (of(found), of(law));
+    // both fall; amplitudes differ by the noise
+    let at = |amplitude_m: f64, value: &dyn Fn(usize) -> f64| {
+        let below = law.partition_point(|point| point.amplitude_m > amplitude_m);
+        let after = below.clamp(1, law.len() - 1);
+        let [from, to] = [after - 1, after].map(|place| law[place].amplitude_m);
+        let part = (amplitude_m - from) / (to - from);
+        value(after - 1) + part * (value(after) - value(after - 1))
+    };
+    let places = [0, own.len() / 2, own.len() - 1];
+    let mut held = [0.0; 2];
+    for place in places {
+        let point = &own[place];
+        let frequency = at(point.amplitude_m, &|at| law[at].frequency_hz.predicted);
+        let ratio = at(point.amplitude_m, &|at| {
+            law[at].damping_ratio.unwrap().predicted
+        });
+        let told = [
+            (point.frequency_hz.curve_95.unwrap(), frequency),
+            (point.damping_ratio.unwrap().curve_95.unwrap(), ratio),
+        ];
+        for (held, ([low, high], exact)) in held.iter_mut().zip(told) {
+            *held += f64::from(u8::from((low..=high).contains(&exact))) / places.len() as f64;
+        }
+    }
+    held
+}
+
 /// Without noise the numbers are there; with it their errors are what is said of them.
 #[track_caller]
 fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)], draws: u64) {
@@ -182,11 +219,14 @@ fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)],
     }
     let (mut squares, mut held) = (0.0, 0.0);
     let mut told = Told::default();
+    let mut of_curve = [0.0; 2];
     let share = ((draws as usize * truth.len()) as f64).recip();
     for seed in 0..draws {
         let (_folder, study) = records.study(&terms, (seed, NOISE));
         let found = identified(&study);
         told.count(&study, &found);
+        let own = held_by_curve(&found, &exact);
+        of_curve = std::array::from_fn(|kind| of_curve[kind] + own[kind] / draws as f64);
         let reduced = found.fit.reduced_chi_squared();
         assert!((0.2..3.0).contains(&reduced), "{name}: {reduced}");
         for (unknown, expected) in truth {
@@ -202,6 +242,10 @@ fn assert_known(sliders: &Sliders, name: &str, truth: &[(ResponseUnknown, f64)],
     println!("{name}: {deviations:.3} deviations, intervals hold {held:.3}");
     assert!(DEVIATIONS.contains(&deviations), "{name}: {deviations}");
     assert!(HELD.contains(&held), "{name}: {held}");
+    println!("{name}, curve: intervals hold {of_curve:.3?}");
+    for held in of_curve {
+        assert!(CURVE.contains(&held), "{name}: {held}");
+    }
     let [numbers, durations] =
         [told.numbers, told.durations].map(|[all, held]| held as f64 / all as f64);
     println!(

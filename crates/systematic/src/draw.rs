@@ -113,7 +113,7 @@ impl Sets {
             }
             let assembled = task.assembled(line, found, &together, &recomputed)?;
             for (number, coupled) in assembled.iter().enumerate() {
-                let at = task.at_assembly(number, coupled, experiment.omega[line]);
+                let at = task.at_assembly(number, coupled, line);
                 add(&mut assemblies[number], task.measured(&at, found));
             }
         }

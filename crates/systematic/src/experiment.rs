@@ -6,7 +6,9 @@ use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::bending::flexibility_from_drive_points;
-use super::bends::{AtBolt, between_bolts};
+use super::bending_fit::{Beam, beam};
+use super::bending_shape::Waves;
+use super::bends::{AtBolt, between_bolts, with_loads_between};
 use super::cause::Side;
 use super::modal_fit::ModalFit;
 use super::slope::{Kind, Place, PointSlopes, slope};
@@ -32,6 +34,8 @@ pub struct Experiment<'a> {
     pub known_masses: Vec<(usize, f64)>,
     /// Smooth fits of A and B where they are measured, made when they are first asked for.
     fits: OnceLock<[Option<ModalFit>; 2]>,
+    /// At each line.
+    slopes: OnceLock<Option<Vec<PointSlopes>>>,
 }
 
 /// What was measured of the two structures together.
@@ -100,10 +104,25 @@ pub struct Measured {
     pub(crate) at_bolts: Vec<AtBolt>,
     /// Positions of the bolts, where they are told in the direction of the points, m; empty if none is.
     bolts_m: Vec<Option<f64>>,
+    /// 1/EI, rad/(N·m²), where its section is known.
+    known_flexibility: Option<f64>,
+    /// The beam that the functions along it tell.
+    told: Option<Beam>,
+}
+
+/// Where bolts and points of a measured structure are, m, as far as that is known.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    /// Each bolt along the structure.
+    pub bolts_m: Vec<Option<f64>>,
+    /// Each bolt whose translation is along those of the points, on the points' own axis.
+    pub bolts_among_points_m: Vec<Option<f64>>,
+    /// Each point.
+    pub points_m: Vec<Option<f64>>,
 }
 
 impl Measured {
-    /// A structure formed from these functions; where its bending stiffness EI (N·m²) is not known, its drive points tell it.
+    /// A structure formed from these functions; where its bending stiffness EI (N·m²) is not known, its functions tell it.
     #[must_use]
     pub fn new(
         functions: MeasuredFunctions,
@@ -118,9 +137,11 @@ impl Measured {
             correction,
             at_bolts: Vec::new(),
             bolts_m: Vec::new(),
+            known_flexibility: bending_stiffness_n_m2.map(f64::recip),
+            told: None,
         };
-        let flexibility = match bending_stiffness_n_m2 {
-            Some(stiffness) if joint.has_rotation() => vec![stiffness.recip(); joint.bolts()],
+        let flexibility = match new.known_flexibility {
+            Some(flexibility) if joint.has_rotation() => vec![flexibility; joint.bolts()],
             Some(_) => Vec::new(),
             None => {
                 let formed = |values: &[Complex64]| new.as_measured(values);
@@ -131,27 +152,58 @@ impl Measured {
         new
     }
 
-    /// 1/EI, rad/(N·m²): the largest beside any bolt, since what drive points tell of one that is not at the structure's end is too
-    /// little.
-    fn flexibility(&self) -> f64 {
+    /// How it bends between its places: 1/EI by the functions along it or, where these are too few, the largest beside any bolt, since
+    /// what drive points tell of one that is not at the structure's end is too little.
+    fn beam(&self) -> Beam {
         let of_bolts = self.at_bolts.iter().map(|bolt| bolt.flexibility);
-        of_bolts.fold(0.0, f64::max)
+        self.told.unwrap_or(Beam {
+            flexibility: of_bolts.fold(0.0, f64::max),
+            inertia: 0.0,
+        })
     }
 
-    /// With the positions of the bolts along the structure, m, where they are known.
+    /// With the places of its bolts and points; the functions are those at the lines of `omega`, rad/s.
     #[must_use]
-    pub fn with_bolts_at(mut self, positions_m: &[Option<f64>], joint: &JointShape) -> Self {
-        let bends = between_bolts(positions_m, self.flexibility(), joint);
+    pub fn with_places(mut self, places: Places, omega: &[f64], joint: &JointShape) -> Self {
+        self.bolts_m = places.bolts_among_points_m;
+        let points = self.points_at(&places.points_m, joint);
+        let all = [points, self.bolts_at(joint, 0)].concat();
+        let motions = |line: usize| self.as_measured(&self.functions.at(line));
+        self.told = beam(&all, omega, motions, self.known_flexibility);
+        let bends = between_bolts(&places.bolts_m, self.beam(), joint);
+        let bends = with_loads_between(bends, &self.bolts_m, &places.points_m, joint);
         for (bolt, bend) in self.at_bolts.iter_mut().zip(bends) {
             bolt.bend = bend;
         }
         self
     }
 
-    /// With the positions, m, of those bolts whose translations are along those of the points, on the points' own axis.
-    #[must_use]
-    pub fn with_bolts_among_points(self, bolts_m: Vec<Option<f64>>) -> Self {
-        Self { bolts_m, ..self }
+    /// Its points, as places among its own motions.
+    fn points_at(&self, points_m: &[Option<f64>], joint: &JointShape) -> Vec<Place> {
+        let points = points_m.iter().enumerate();
+        let place = |(point, x_m): (usize, &Option<f64>)| {
+            Some(Place {
+                x_m: (*x_m)?,
+                translation: joint.dofs + point,
+                kind: Kind::Point,
+            })
+        };
+        points.filter_map(place).collect()
+    }
+
+    /// Its bolts whose places among the points are known; its DOFs at the joint begin at `first`.
+    fn bolts_at(&self, joint: &JointShape, first: usize) -> Vec<Place> {
+        let positions = self.bolts_m.iter().enumerate();
+        let places = positions.filter_map(|(bolt, x_m)| {
+            let translation = first + joint.translation(bolt);
+            let rotation = joint.has_rotation().then_some(translation + 1);
+            Some(Place {
+                x_m: (*x_m)?,
+                translation,
+                kind: Kind::Bolt { rotation },
+            })
+        });
+        places.collect()
     }
 }
 
@@ -207,6 +259,7 @@ impl<'a> Experiment<'a> {
             points_on_a: 0,
             known_masses: Vec::new(),
             fits: OnceLock::new(),
+            slopes: OnceLock::new(),
         }
     }
 
@@ -259,7 +312,15 @@ impl<'a> Experiment<'a> {
     }
 
     /// Slopes at the points of structures that are not computed anew; `None` where no position is known.
-    pub(crate) fn slopes(&self) -> Option<PointSlopes> {
+    pub(crate) fn slopes(&self) -> Option<&[PointSlopes]> {
+        let slopes = self.slopes.get_or_init(|| {
+            let omega = self.omega.iter();
+            omega.map(|&omega| self.slopes_at(omega)).collect()
+        });
+        slopes.as_deref()
+    }
+
+    fn slopes_at(&self, omega: f64) -> Option<PointSlopes> {
         let (points, dofs) = (self.points(), self.joint.dofs);
         let mut weights = DMatrix::zeros(points, points + 2 * dofs);
         let mut by_loads = DMatrix::zeros(points, points);
@@ -279,17 +340,18 @@ impl<'a> Experiment<'a> {
             let mut places = known.clone();
             places.extend(self.bolts_on(side, first));
             let loads_m: Vec<f64> = known.iter().map(|place| place.x_m).collect();
-            let flexibility = match self.side(side) {
-                Structure::Measured(measured) => measured.flexibility(),
-                Structure::Computed(_) | Structure::Exact(_) => 0.0,
+            let beam = match self.side(side) {
+                Structure::Measured(measured) => measured.beam(),
+                Structure::Computed(_) | Structure::Exact(_) => Beam::RIGID,
             };
+            let waves = Waves::new(beam.inertia, omega);
             for place in &known {
-                let slope = slope(place.x_m, &places, &loads_m);
+                let slope = slope(place.x_m, &places, &loads_m, waves);
                 for (motion, weight) in slope.weights {
                     weights[(place.translation, motion)] += weight;
                 }
                 for (load, of_unit) in known.iter().zip(slope.by_loads) {
-                    by_loads[(place.translation, load.translation)] = of_unit * flexibility;
+                    by_loads[(place.translation, load.translation)] = of_unit * beam.flexibility;
                 }
             }
         }
@@ -302,17 +364,7 @@ impl<'a> Experiment<'a> {
         let Structure::Measured(measured) = self.side(side) else {
             return Vec::new();
         };
-        let positions = measured.bolts_m.iter().enumerate();
-        let places = positions.filter_map(|(bolt, x_m)| {
-            let translation = first + self.joint.translation(bolt);
-            let rotation = self.joint.has_rotation().then_some(translation + 1);
-            Some(Place {
-                x_m: (*x_m)?,
-                translation,
-                kind: Kind::Bolt { rotation },
-            })
-        });
-        places.collect()
+        measured.bolts_at(&self.joint, first)
     }
 
     /// Labelled functions of a structure that is measured.

@@ -7,6 +7,8 @@
 #![forbid(unsafe_code)]
 
 mod bending;
+mod bending_fit;
+mod bending_shape;
 mod bends;
 mod budget;
 mod cause;
@@ -42,7 +44,7 @@ pub use estimate::{
 };
 pub use experiment::{
     Assembly, Change, ComplexMatrix, Computation, Compute, Computed, Entry, Experiment, JointShape,
-    Measured, MeasuredFunctions, Structure,
+    Measured, MeasuredFunctions, Places, Structure,
 };
 pub use refine::refine;
 pub use score::{Score, score_tests};

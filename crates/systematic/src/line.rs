@@ -17,7 +17,7 @@ use super::structures::Recomputations;
 pub(crate) struct Task<'t> {
     pub(crate) experiment: &'t Experiment<'t>,
     pub(crate) priors: &'t [Prior],
-    slopes: Option<PointSlopes>,
+    slopes: Option<&'t [PointSlopes]>,
 }
 
 /// Joint and causes at one moment of the search.
@@ -108,7 +108,7 @@ impl<'t> Task<'t> {
             Structure::Measured(measured) => measured.formed(
                 dofs,
                 side,
-                &labelled[side as usize],
+                (&labelled[side as usize], self.experiment.omega[line]),
                 self.priors,
                 &point.causes,
             ),
@@ -176,15 +176,15 @@ impl<'t> Task<'t> {
         &'r self,
         number: usize,
         coupled: &'r Coupled,
-        omega: f64,
+        line: usize,
     ) -> At<'r> {
         At {
             set: MeasuredSet::Assembly(number),
             functions: &self.experiment.assemblies[number].functions,
             truth: &coupled.receptance,
-            omega,
-            slopes: self.slopes.as_ref().map(|of_points| Slopes {
-                of_points,
+            omega: self.experiment.omega[line],
+            slopes: self.slopes.map(|slopes| Slopes {
+                of_points: &slopes[line],
                 at_joint: &coupled.q,
             }),
         }
@@ -245,7 +245,7 @@ impl<'t> Task<'t> {
         let assembled = self.assembled(line, point, labelled, recomputed)?;
         let mut left = Vec::new();
         for (number, coupled) in assembled.iter().enumerate() {
-            let at = self.at_assembly(number, coupled, self.experiment.omega[line]);
+            let at = self.at_assembly(number, coupled, line);
             let beside = at.beside(self.priors, &point.causes);
             let factors = at.factors(self.priors, &point.causes);
             let entries = at.functions.entries.iter().zip(factors);

@@ -8,6 +8,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::bending_shape::{Waves, shape, slope_of_shape};
+
 /// Places that a slope is taken through, two to each side inside.
 const NEAR: usize = 5;
 /// Conditions that a cubic meets. Fewer leave open on which side of a load the third derivative is, so that a jump of it adds nothing.
@@ -52,8 +54,8 @@ pub(crate) struct Slope {
     pub(crate) by_loads: Vec<f64>,
 }
 
-/// By the polynomial through the nearest places that no bolt is between; the loads act at these positions, m.
-pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64]) -> Slope {
+/// By the sum of shapes that goes through the nearest places that no bolt is between; the loads act at these positions, m.
+pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64], waves: Waves) -> Slope {
     let mut order: Vec<&Place> = places.iter().collect();
     order.sort_by(|one, other| one.x_m.total_cmp(&other.x_m));
     let is_bolt = |place: &&Place| place.kind != Kind::Point;
@@ -69,18 +71,21 @@ pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64]) -> Slope {
         .min(span.len().saturating_sub(NEAR));
     let near = &span[from..(from + NEAR).min(span.len())];
     let conditions = conditions(x_m, near);
-    let weights = weights(x_m, &conditions);
+    let positions = || conditions.iter().map(|condition| condition.x_m);
+    let ends = positions().fold([x_m; 2], |[least, most], x| [least.min(x), most.max(x)]);
+    let bending = waves.over(ends[1] - ends[0]);
+    let weights = weights(x_m, &conditions, bending);
     let by_load = |load_m: &f64| {
         let reached = conditions.iter().zip(&weights);
         let of_places = reached.map(|(condition, weight)| {
             let distance = condition.x_m - load_m;
             let there = match condition.is_rotation {
-                true => jump_slope(distance),
-                false => jump(distance),
+                true => jump_slope(distance, bending),
+                false => jump(distance, bending),
             };
             weight * there
         });
-        jump_slope(x_m - load_m) - of_places.sum::<f64>()
+        jump_slope(x_m - load_m, bending) - of_places.sum::<f64>()
     };
     Slope {
         by_loads: match weights.len() {
@@ -95,14 +100,14 @@ pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64]) -> Slope {
     }
 }
 
-/// |d|³/12, whose third derivative jumps by one.
-fn jump(distance_m: f64) -> f64 {
-    distance_m.abs().powi(3) / 12.0
+/// C₃(|d|)/2, whose third derivative jumps by one: |d|³/12 where nothing moves.
+fn jump(distance_m: f64, bending: f64) -> f64 {
+    shape(3, distance_m.abs(), bending) / 2.0
 }
 
 /// Its derivative.
-fn jump_slope(distance_m: f64) -> f64 {
-    distance_m * distance_m.abs() / 4.0
+fn jump_slope(distance_m: f64, bending: f64) -> f64 {
+    distance_m.signum() * slope_of_shape(3, distance_m.abs(), bending) / 2.0
 }
 
 /// What a polynomial has to meet.
@@ -141,8 +146,8 @@ fn reach(x_m: f64, positions_m: impl Iterator<Item = f64>) -> f64 {
     positions_m.fold(0.0, |furthest, x| furthest.max((x - x_m).abs()))
 }
 
-/// Of each condition its weight in the slope; none where they do not determine one.
-fn weights(x_m: f64, conditions: &[Condition]) -> Vec<f64> {
+/// Of each condition its weight in the slope, with κ⁴; none where they do not determine one.
+fn weights(x_m: f64, conditions: &[Condition], bending: f64) -> Vec<f64> {
     if let [only] = conditions
         && only.is_rotation
     {
@@ -153,14 +158,13 @@ fn weights(x_m: f64, conditions: &[Condition]) -> Vec<f64> {
     if count < 2 || length == 0.0 {
         return Vec::new();
     }
-    // rows of 1, t, t² … and of their derivatives, t = (x − x₀)/L
-    let matrix = DMatrix::from_fn(count, count, |row, power| {
+    // rows of C_n(t) and of their derivatives, t = (x − x₀)/L
+    let bending = bending * length.powi(4);
+    let matrix = DMatrix::from_fn(count, count, |row, n| {
         let t = (conditions[row].x_m - x_m) / length;
-        let power = power as i32;
-        match (conditions[row].is_rotation, power) {
-            (false, _) => t.powi(power),
-            (true, 0) => 0.0,
-            (true, _) => f64::from(power) * t.powi(power - 1) / length,
+        match conditions[row].is_rotation {
+            false => shape(n, t, bending),
+            true => slope_of_shape(n, t, bending) / length,
         }
     });
     // w′(x₀) = c₁/L of the coefficients c
@@ -173,6 +177,8 @@ fn weights(x_m: f64, conditions: &[Condition]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const AT_REST: Waves = Waves::new(0.0, 1.0);
 
     fn point(translation: usize, x_m: f64) -> Place {
         Place {
@@ -198,7 +204,7 @@ mod tests {
             let degree = (count - 1).min(4) as i32;
             let motions: Vec<f64> = x.iter().map(|x| x.powi(degree)).collect();
             for &x in x {
-                let found = at(&motions, &slope(x, &places, &[]).weights);
+                let found = at(&motions, &slope(x, &places, &[], AT_REST).weights);
                 let exact = f64::from(degree) * x.powi(degree - 1);
                 assert!(
                     (found - exact).abs() < 1e-9,
@@ -208,8 +214,8 @@ mod tests {
         }
         // a line through two, and nothing through one
         let places = [point(0, 0.0), point(1, 0.5)];
-        assert!((at(&[0.0, 1.0], &slope(0.0, &places, &[]).weights) - 2.0).abs() < 1e-12);
-        let alone = slope(0.0, &places[..1], &[0.0]);
+        assert!((at(&[0.0, 1.0], &slope(0.0, &places, &[], AT_REST).weights) - 2.0).abs() < 1e-12);
+        let alone = slope(0.0, &places[..1], &[0.0], AT_REST);
         assert_eq!((alone.weights, alone.by_loads), (vec![], vec![0.0]));
     }
 
@@ -231,15 +237,46 @@ mod tests {
         let mut motions: Vec<f64> = x.iter().map(|&x| w(x)).collect();
         motions.extend([0.0, 0.2]);
         for (x, exact) in [(0.0, 0.2), (0.05, 0.2), (0.15, 0.2075), (0.3, 0.32)] {
-            let found = at(&motions, &slope(x, &places, &[]).weights);
+            let found = at(&motions, &slope(x, &places, &[], AT_REST).weights);
             assert!((found - exact).abs() < 1e-12, "{x}: {found}, not {exact}");
         }
         // at the bolt itself its rotation
-        let at_bolt = slope(0.1, &places, &[0.3]);
+        let at_bolt = slope(0.1, &places, &[0.3], AT_REST);
         assert_eq!(
             (at_bolt.weights, at_bolt.by_loads),
             (vec![(5, 1.0)], vec![0.0])
         );
+    }
+
+    /// A free wave of a beam, and where it is measured: at four points and beside a bolt with its rotation.
+    #[test]
+    fn a_beam_that_vibrates_has_its_own_slope() {
+        let kappa: f64 = 4.0;
+        let w = |x: f64| {
+            (kappa * x).sin() + 0.3 * (kappa * x).cos() - 0.2 * (-kappa * x).exp()
+                + 0.01 * (kappa * x).exp()
+        };
+        let slope_of = |x: f64| {
+            let (s, c) = ((kappa * x).sin(), (kappa * x).cos());
+            kappa * (c - 0.3 * s + 0.2 * (-kappa * x).exp() + 0.01 * (kappa * x).exp())
+        };
+        let x = [0.2_f64, 0.3, 0.45, 0.6];
+        let mut places: Vec<Place> = x.iter().enumerate().map(|(i, &x)| point(i, x)).collect();
+        places.push(Place {
+            x_m: 0.1,
+            translation: 4,
+            kind: Kind::Bolt { rotation: Some(5) },
+        });
+        let mut motions: Vec<f64> = x.iter().map(|&x| w(x)).collect();
+        motions.extend([w(0.1), slope_of(0.1)]);
+        let error = |waves: Waves| {
+            let of = |&x: &f64| at(&motions, &slope(x, &places, &[], waves).weights) - slope_of(x);
+            x.iter()
+                .map(of)
+                .fold(0.0, |largest: f64, error| largest.max(error.abs()))
+        };
+        let (own, at_rest) = (error(Waves::new(kappa.powi(4), 1.0)), error(AT_REST));
+        assert!(own < 1e-11 && at_rest > 1e-3, "{own}, {at_rest}");
     }
 
     /// A beam of EI = 7 with a force at ξ: a cubic and (x − ξ)³₊/6EI.
@@ -253,7 +290,7 @@ mod tests {
         let motions: Vec<f64> = x.iter().map(|&x| w(x)).collect();
         for x in x {
             let exact = 3.0 * x * x - 1.0 + beyond(x).powi(2) / (2.0 * stiffness);
-            let slope = slope(x, &places, &[load]);
+            let slope = slope(x, &places, &[load], AT_REST);
             let found = at(&motions, &slope.weights) + slope.by_loads[0] / stiffness;
             assert!((found - exact).abs() < 1e-12, "{x}: {found}, not {exact}");
         }

@@ -150,8 +150,9 @@ impl Measured {
         formed
     }
 
-    fn beside(&self, dofs_of_a_bolt: usize, bolt: usize) -> Beside<'_> {
+    fn beside(&self, dofs_of_a_bolt: usize, bolt: usize, omega: f64) -> Beside<'_> {
         Beside {
+            omega,
             y: bolt * dofs_of_a_bolt,
             bend: self.at_bolts.get(bolt).and_then(|at| at.bend.as_ref()),
         }
@@ -162,7 +163,7 @@ impl Measured {
         &self,
         dofs_of_a_bolt: usize,
         side: Side,
-        labelled: &[Complex64],
+        (labelled, omega): (&[Complex64], f64),
         priors: &[Prior],
         values: &[f64],
     ) -> ComplexMatrix {
@@ -174,7 +175,8 @@ impl Measured {
         for (prior, &value) in priors.iter().zip(values) {
             match prior.cause {
                 Cause::JointPosition(of, bolt) if of == side && value != 0.0 => {
-                    self.beside(dofs_of_a_bolt, bolt).shift(&mut formed, value)
+                    self.beside(dofs_of_a_bolt, bolt, omega)
+                        .shift(&mut formed, value);
                 }
                 Cause::JointBending(of, bolt) if of == side => {
                     let theta = bolt * dofs_of_a_bolt + 1;
@@ -191,7 +193,7 @@ impl Measured {
         &self,
         dofs_of_a_bolt: usize,
         side: Side,
-        formed: &ComplexMatrix,
+        (formed, omega): (&ComplexMatrix, f64),
         cause: Cause,
     ) -> Option<ComplexMatrix> {
         match cause {
@@ -202,7 +204,7 @@ impl Measured {
                 Some(change)
             }
             Cause::JointPosition(of, bolt) if of == side => {
-                Some(-self.beside(dofs_of_a_bolt, bolt).displaced(formed))
+                Some(-self.beside(dofs_of_a_bolt, bolt, omega).displaced(formed))
             }
             Cause::JointBending(of, bolt) if of == side => {
                 let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());

@@ -1,7 +1,8 @@
 //! A study and its lines as an experiment with systematic errors.
 
 use bolted_joint_systematic::{
-    Assembly, Computed, Entry, Experiment, JointShape, Measured, MeasuredFunctions, Side, Structure,
+    Assembly, Computed, Entry, Experiment, JointShape, Measured, MeasuredFunctions, Places, Side,
+    Structure,
 };
 use num_complex::Complex64;
 
@@ -32,10 +33,6 @@ pub(super) fn of<'a>(
         .map(|place| place.all().collect())
         .collect();
     let dofs = lines.joint_dofs();
-    let omega = lines
-        .frequency_hz
-        .iter()
-        .map(|hz| std::f64::consts::TAU * hz);
     let joint = JointShape {
         dofs,
         dofs_of_a_bolt: dofs / study.bolts.count(),
@@ -54,7 +51,7 @@ pub(super) fn of<'a>(
         functions: assembly(study, lines, levels.assembly),
         joint,
     });
-    let mut experiment = Experiment::new(omega.collect(), joint, structures, assemblies.collect());
+    let mut experiment = Experiment::new(angular(lines), joint, structures, assemblies.collect());
     experiment.known_masses = known_masses;
     experiment.points_on_a = study.points_on_a;
     Some(experiment)
@@ -199,10 +196,23 @@ fn structure<'a>(
                 substructure.section().map(Section::bending_stiffness_n_m2),
                 joint,
             )
-            .with_bolts_at(&substructure.bolts_m(), joint)
-            .with_bolts_among_points(bolts_among_points(study, side, measured, joint)),
+            .with_places(
+                Places {
+                    bolts_m: substructure.bolts_m(),
+                    bolts_among_points_m: bolts_among_points(study, side, measured, joint),
+                    points_m: positions_m(substructure, points),
+                },
+                &angular(lines),
+                joint,
+            ),
         ))),
     }
+}
+
+/// Lines, rad/s.
+fn angular(lines: &Lines) -> Vec<f64> {
+    let hz = lines.frequency_hz.iter();
+    hz.map(|hz| std::f64::consts::TAU * hz).collect()
 }
 
 /// Positions of the bolts whose translations are along those of the points on this structure.

@@ -66,7 +66,8 @@ pub(super) fn section(found: &LapResponse) -> String {
     });
     format!(
         "<h2>Backbones and decays</h2>\n<p>Measured, and of the model at the amplitudes that were measured; of a decay as the model’s own \
-         decay is read. A run that was left out has intervals: the deviations of the unknowns, the noise of the run, the errors of its \
+         decay is read. Around the curve of a run that was fitted is where that may be by the deviations of the unknowns alone, with 95 %. \
+         Around that of a run that was left out is where its points are expected: by these, the noise of the run, the errors of its \
          amplitudes{}. A law that is wrong beyond the amplitudes that were fitted is not in them.</p>\n{between}{}{}",
         match between.is_empty() {
             true =>
@@ -100,13 +101,14 @@ fn damping(run: &BackbonePrediction) -> Option<Drawn> {
     )
 }
 
-/// What was measured, the model, and both ends of what is expected, in a unit of 1/`times`.
+/// What was measured, the model, and both ends of what is expected or, of a run that was fitted, of the model's curve, in a unit of
+/// 1/`times`.
 fn beside_model(points: Vec<(f64, Expected)>, times: f64) -> Vec<Line> {
     let each = |of: &dyn Fn(&Expected) -> Option<f64>| {
         let points = points.iter();
         sorted(points.filter_map(|(amplitude_m, own)| Some((1e6 * amplitude_m, times * of(own)?))))
     };
-    let end = |side: usize| each(&|own| Some(own.interval_95?[side]));
+    let end = |side: usize| each(&|own| Some(own.interval_95.or(own.curve_95)?[side]));
     let all = [
         Line::marks("measured", each(&|own| Some(own.measured))),
         Line::curve("model", each(&|own| Some(own.predicted))),

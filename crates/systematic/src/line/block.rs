@@ -140,7 +140,7 @@ impl Task<'_> {
         let smooth_coupled = of_smooth.as_ref().unwrap_or(coupled);
         let smooth_structures = line.of_smooth.as_ref().unwrap_or(&line.own);
         let entries = &assembly.functions.entries;
-        let smooth_at = self.at_assembly(number, smooth_coupled, omega);
+        let smooth_at = self.at_assembly(number, smooth_coupled, line.line);
         let chain = smooth_at.by_truth(self.priors, &point.causes);
         let mut places: Vec<(usize, usize)> = entries.iter().map(|entry| entry.place).collect();
         if chain.is_some() {
@@ -152,7 +152,7 @@ impl Task<'_> {
         };
         let smooth_by_labelled = chained(self.by_labelled(smooth_coupled, &places));
         let by_labelled = chained(self.by_labelled(coupled, &places));
-        let at = self.at_assembly(number, coupled, omega);
+        let at = self.at_assembly(number, coupled, line.line);
         let beside = at.beside(self.priors, &point.causes);
         let moved = &by_labelled * &line.shift;
         let factors = at.factors(self.priors, &point.causes);
@@ -196,7 +196,7 @@ impl Task<'_> {
                     Structure::Measured(measured) => measured.formed_by_cause(
                         experiment.joint.dofs_of_a_bolt,
                         side,
-                        &smooth_structures[side as usize],
+                        (&smooth_structures[side as usize], omega),
                         prior.cause,
                     ),
                     Structure::Computed(_) => {

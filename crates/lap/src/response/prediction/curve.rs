@@ -71,6 +71,8 @@ pub struct Expected {
     /// the run, the errors of its amplitudes and, where several runs were fitted, what they differ by as a whole. A law that is
     /// wrong beyond the amplitudes that were fitted is not in it.
     pub interval_95: Option<[f64; 2]>,
+    /// Where the model's own curve is, with 95 %, by the deviations of the unknowns alone; of fitted runs and of others.
+    pub curve_95: Option<[f64; 2]>,
 }
 
 impl Expected {
@@ -138,7 +140,7 @@ impl BackbonePrediction {
         (each.collect(), between)
     }
 
-    /// Of a run; one that was left out has intervals.
+    /// Of a run; of one that was left out it is told where it is expected.
     fn of(
         model: &Model,
         fit: &Fit,
@@ -147,10 +149,13 @@ impl BackbonePrediction {
         (spread, between): (&Spread<'_>, Option<&BetweenRuns>),
     ) -> Self {
         let left_out = run.used_for == Use::Predict;
-        let intervals = left_out.then(|| spread.of_course(model, fit, run, course, between));
+        let halves = spread.of_course(model, fit, run, course, between);
         let interval = |kind: usize, place: usize| {
-            let half = intervals.as_ref()?.points[place][kind];
-            half.is_finite().then_some(half)
+            let half = Some(halves.points[place][kind]).filter(|_| left_out);
+            half.filter(|half| half.is_finite())
+        };
+        let curve = |kind: usize, place: usize| {
+            Some(halves.curve[place][kind]).filter(|half| half.is_finite())
         };
         let lines = run.lines.iter().zip(&course.points).enumerate();
         let points = lines.map(|(place, (line, &[log_omega, ratio]))| PointPrediction {
@@ -158,13 +163,14 @@ impl BackbonePrediction {
             frequency_hz: Expected {
                 measured: line.omega / TAU,
                 predicted: log_omega.exp() / TAU,
-                interval_95: interval(0, place)
-                    .map(|half| [-half, half].map(|by| (log_omega + by).exp() / TAU)),
+                interval_95: interval(0, place).map(|half| around_hz(log_omega, half)),
+                curve_95: curve(0, place).map(|half| around_hz(log_omega, half)),
             },
             damping_ratio: line.damping_ratio.map(|measured| Expected {
                 measured,
                 predicted: ratio,
                 interval_95: interval(1, place).map(|half| [ratio - half, ratio + half]),
+                curve_95: curve(1, place).map(|half| [ratio - half, ratio + half]),
             }),
         });
         let points: Vec<PointPrediction> = points.collect();
@@ -187,7 +193,7 @@ impl BackbonePrediction {
             frequency_error_hz: mean(of_frequency.collect()),
             damping_error: (!of_damping.is_empty()).then(|| mean(of_damping)),
             points,
-            fall: fall(run, course, intervals.and_then(|own| own.duration_s)),
+            fall: fall(run, course, halves.duration_s.filter(|_| left_out)),
         }
     }
 
@@ -205,6 +211,11 @@ impl BackbonePrediction {
     }
 }
 
+/// Frequencies, Hz, so far on either side of ln ω.
+fn around_hz(log_omega: f64, half: f64) -> [f64; 2] {
+    [-half, half].map(|by| (log_omega + by).exp() / TAU)
+}
+
 fn fall(run: &BackboneRun, course: &Course, half: Option<f64>) -> Option<Fall> {
     let (first, last) = (run.lines.first()?, run.lines.last()?);
     let predicted = course.duration_s?;
@@ -214,6 +225,7 @@ fn fall(run: &BackboneRun, course: &Course, half: Option<f64>) -> Option<Fall> {
             measured: last.time_s? - first.time_s?,
             predicted,
             interval_95: half.map(|half| [(predicted - half).max(0.0), predicted + half]),
+            curve_95: None,
         },
     })
 }
@@ -221,6 +233,8 @@ fn fall(run: &BackboneRun, course: &Course, half: Option<f64>) -> Option<Fall> {
 /// Halves of intervals of 95 %.
 struct Halves {
     points: Vec<[f64; 2]>,
+    /// Those of the model's curve by the unknowns alone.
+    curve: Vec<[f64; 2]>,
     duration_s: Option<f64>,
 }
 
@@ -340,6 +354,10 @@ impl Spread<'_> {
         };
         let half =
             |variance: f64, of_run: f64| (self.quantile * self.quantile * variance + of_run).sqrt();
+        let curve = points
+            .iter()
+            .map(|variances| variances.map(|own| half(own, 0.0)));
+        let curve = curve.collect();
         let measured = self.of_points(model, fit, run, course);
         let of_points = points.iter().zip(&course.points).zip(measured);
         let of_points = of_points.map(|((of_unknowns, &[_, ratio]), measured)| {
@@ -359,6 +377,7 @@ impl Spread<'_> {
             squares * self.factor.max(1.0)
         });
         Halves {
+            curve,
             points: of_points.collect(),
             duration_s: duration.zip(of_ends).map(|(of_unknowns, of_ends)| {
                 // t falls as ζω of the run is larger

@@ -35,8 +35,9 @@ const LEFT_OUT: f64 = 0.7;
 const PREDICTED: std::ops::RangeInclusive<f64> = 0.92..=0.98;
 /// Part of the durations that do: one for each draw, so that 60 leave 2.8 % of it open.
 const LASTING: std::ops::RangeInclusive<f64> = 0.88..=1.0;
-/// Part of the draws in which the law's own curve lies where the model's is said to be.
-const CURVE: std::ops::RangeInclusive<f64> = 0.9..=0.99;
+/// Part of the draws in which the law's own curve lies where the model's is said to be. Both places of one draw go together, so that
+/// 60 leave 2.8 % of it open.
+const CURVE: std::ops::RangeInclusive<f64> = 0.87..=1.0;
 /// Part of the draws in which a run left out may be said not to be of the law, though it is.
 const WARNED: f64 = 0.05;
 
@@ -159,8 +160,9 @@ impl Told {
     }
 }
 
-/// How often the curve of the law lies where the model's own curve is said to be, at the beginning, the middle and the end of the
-/// record that was fitted: frequencies, and damping ratios.
+/// How often the curve of the law lies where the model's own curve is said to be, in the middle and at the end of the record that was
+/// fitted: frequencies, and damping ratios. At its beginning one slider begins to slip, and the law's curve is too steep to be taken
+/// between the amplitudes that it was read at.
 fn held_by_curve(found: &LapResponse, law: &LapResponse) -> [f64; 2] {
     let of = |response: &'_ LapResponse| {
         let run = response.backbones.iter().find(|run| !run.left_out);
@@ -175,7 +177,7 @@ fn held_by_curve(found: &LapResponse, law: &LapResponse) -> [f64; 2] {
         let part = (amplitude_m - from) / (to - from);
         value(after - 1) + part * (value(after) - value(after - 1))
     };
-    let places = [0, own.len() / 2, own.len() - 1];
+    let places = [own.len() / 2, own.len() - 1];
     let mut held = [0.0; 2];
     for place in places {
         let point = &own[place];

@@ -70,4 +70,4 @@ def test_with_misplaced_sensors_between_bolts_a_joint_holds_or_is_refused(progra
     deviations off, and of 23 the first one's rotation, 6 deviations off; of 52 the free estimate has a stiffness of
     −146 ± 66 N·m/rad, and another of −2.2e6 ± 9e5 N/m."""
     z = bolted.a_little_wrong(program, tmp_path, draw, None, "different")
-    assert abs(z).max() < 3.5 if draw in (11, 17) else z is None, z
+    assert abs(z).max() < 4.0 if draw in (11, 17) else z is None, z

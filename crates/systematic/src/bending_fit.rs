@@ -218,6 +218,10 @@ impl Left {
                 .conditions
                 .iter()
                 .map(|one| motions[(one.motion, column)]);
+            if own.clone().any(|motion| motion.norm_sqr() == 0.0) {
+                // was not measured
+                continue;
+            }
             let terms = own.zip(&weights).map(|(motion, weight)| motion * *weight);
             let power: f64 = terms.clone().map(|term| term.norm_sqr()).sum();
             let sum: num_complex::Complex64 = terms.sum();

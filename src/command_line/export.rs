@@ -288,6 +288,10 @@ fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
         "model_name": exported.model_name,
         "token": exported.token,
         "step_size_max_s": exported.step.map(|step| step.longest_s),
+        "step_error": exported.step.and_then(|step| match step.choice {
+            StepChoice::Error { found, .. } => Some(found),
+            StepChoice::Given | StepChoice::Accuracy | StepChoice::NoModes => None,
+        }),
         "escape_amplitude": exported.escape_amplitude,
         "platforms": exported.libraries().iter().map(|library| &library.platform).collect::<Vec<_>>(),
         "entries": exported

@@ -116,6 +116,9 @@ fn the_step_of_a_lap_follows_from_the_error_that_is_allowed() {
     }
     let said = bench.done(&format!("{EXPORT} --as lap --step-error 1e-6"));
     assert!(said.stdout.contains(", error "), "{}", said.stdout);
+    let json = bench.done(&format!("{EXPORT} --as lap --step-error 1e-6 --json"));
+    let reached = json.json()["step_error"].as_f64().unwrap();
+    assert!((1e-8..=1e-6).contains(&reached), "{reached}");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn json_has_its_keys() {
         .json();
     assert_eq!(
         keys(&exported),
-        " output fmi_version interface model_name token step_size_max_s escape_amplitude platforms entries passive"
+        " output fmi_version interface model_name token step_size_max_s step_error escape_amplitude platforms entries passive"
     );
     assert_eq!(exported["interface"], "lap");
     assert_eq!(exported["model_name"], "two bodies");

@@ -109,11 +109,12 @@ fn beside_model(points: Vec<(f64, Expected)>, times: f64) -> Vec<Line> {
         sorted(points.filter_map(|(amplitude_m, own)| Some((1e6 * amplitude_m, times * of(own)?))))
     };
     let end = |side: usize| each(&|own| Some(own.interval_95.or(own.curve_95)?[side]));
+    // the model above the ends of a narrow band
     let all = [
         Line::marks("measured", each(&|own| Some(own.measured))),
-        Line::curve("model", each(&|own| Some(own.predicted))),
         Line::curve("95 %, from", end(0)),
         Line::curve("95 %, to", end(1)),
+        Line::curve("model", each(&|own| Some(own.predicted))),
     ];
     all.into_iter()
         .filter(|line| !line.points.is_empty())

@@ -22,6 +22,7 @@ mod experiment;
 mod far;
 mod freed;
 mod line;
+mod measured;
 mod modal_fit;
 mod normal;
 mod refine;
@@ -44,8 +45,9 @@ pub use estimate::{
 };
 pub use experiment::{
     Assembly, Change, ComplexMatrix, Computation, Compute, Computed, Entry, Experiment, JointShape,
-    Measured, MeasuredFunctions, Places, Structure,
+    MeasuredFunctions, Structure,
 };
+pub use measured::{Measured, Places};
 pub use refine::refine;
 pub use score::{Score, score_tests};
 pub use shares::Shares;

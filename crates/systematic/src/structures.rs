@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use super::bends::Beside;
 use super::budget::Prior;
 use super::cause::{Cause, Side};
-use super::experiment::{Change, ComplexMatrix, Computed, Experiment, Measured, Structure};
+use super::experiment::{Change, ComplexMatrix, Computed, Experiment, Structure};
+use super::measured::Measured;
 
 /// Part of a prior standard deviation over which a computed structure is differentiated.
 const STEP: f64 = 0.02;

@@ -6,9 +6,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::bending_shape::{Waves, shape, slope_of_shape};
+use super::bending_shape::Waves;
 use super::experiment::ComplexMatrix;
-use super::slope::{Kind, Place};
+use super::place::{Condition, Kind, Place};
 
 /// Motions of which one follows from the others.
 const MOTIONS: usize = 5;
@@ -23,12 +23,6 @@ const TELLING: f64 = 20.0;
 /// What five motions along a piece tell.
 struct Window {
     conditions: Vec<Condition>,
-}
-
-struct Condition {
-    motion: usize,
-    x_m: f64,
-    is_rotation: bool,
 }
 
 /// How a beam bends.
@@ -128,20 +122,7 @@ fn windows(places: &[Place]) -> Vec<Window> {
         }
     }
     let of_piece = |piece: &Vec<&Place>| -> Vec<Window> {
-        let conditions = |place: &&Place| {
-            let condition = |motion: usize, is_rotation: bool| Condition {
-                motion,
-                x_m: place.x_m,
-                is_rotation,
-            };
-            let rotation = match place.kind {
-                Kind::Bolt { rotation } => rotation,
-                Kind::Point => None,
-            };
-            let rotation = rotation.map(|rotation| condition(rotation, true));
-            [Some(condition(place.translation, false)), rotation]
-        };
-        let all = || piece.iter().flat_map(conditions).flatten();
+        let all = || piece.iter().flat_map(|place| place.conditions());
         let count = all().count();
         let first = 0..(count + 1).saturating_sub(MOTIONS);
         first
@@ -163,14 +144,8 @@ impl Window {
     fn weights(&self, waves: Waves) -> Option<Vec<f64>> {
         let origin = self.conditions.first()?.x_m;
         let length = self.length();
-        let bending = waves.anywhere() * length.powi(4);
-        let of = |condition: &Condition, n: usize| {
-            let t = (condition.x_m - origin) / length;
-            match condition.is_rotation {
-                false => shape(n, t, bending),
-                true => slope_of_shape(n, t, bending) / length,
-            }
-        };
+        let bending = waves.anywhere();
+        let of = |condition: &Condition, n: usize| condition.of_shape(n, origin, length, bending);
         let last = self.conditions.len() - 1;
         let system = DMatrix::from_fn(last, last, |n, i| of(&self.conditions[i], n));
         let right = DVector::from_fn(last, |n, _| of(&self.conditions[last], n));
@@ -181,14 +156,8 @@ impl Window {
     /// What a unit force at ξ does to each motion, for EI of one.
     fn by_load(&self, load_m: f64, waves: Waves) -> impl Iterator<Item = f64> {
         let bending = waves.anywhere();
-        self.conditions.iter().map(move |condition| {
-            let distance = condition.x_m - load_m;
-            let by_slope = distance.signum() * slope_of_shape(3, distance.abs(), bending);
-            match condition.is_rotation {
-                false => shape(3, distance.abs(), bending) / 2.0,
-                true => by_slope / 2.0,
-            }
-        })
+        let conditions = self.conditions.iter();
+        conditions.map(move |condition| condition.by_load(load_m, bending))
     }
 }
 

@@ -140,35 +140,43 @@ pub(crate) fn with_loads_between(
 }
 
 /// Motions at and beside a bolt whose DOFs are its translation `y` and the rotation after it.
-pub(crate) struct Beside<'b> {
-    pub(crate) y: usize,
-    pub(crate) bend: Option<&'b Bend>,
-    /// Angular frequency, rad/s.
-    pub(crate) omega: f64,
+pub(crate) struct Beside {
+    y: usize,
+    /// w″ as a sum over the motions, with their weights.
+    curvature: Vec<(usize, f64)>,
+    /// w″ by a unit force at points between the bolts, rad/(N·m).
+    by_loads: Vec<(usize, f64)>,
+    /// ±1/EI, rad/(N·m²)
+    jump: f64,
 }
 
-impl Beside<'_> {
+impl Beside {
+    /// At an angular frequency, rad/s; without a bend no curvature is known.
+    pub(crate) fn new(y: usize, bend: Option<&Bend>, omega: f64) -> Self {
+        Self {
+            y,
+            curvature: bend.map_or_else(Vec::new, |bend| bend.curvature(omega).to_vec()),
+            by_loads: bend.map_or_else(Vec::new, |bend| bend.by_loads(omega).collect()),
+            jump: bend.map_or(0.0, |bend| bend.jump),
+        }
+    }
+
     /// T H, T having the bolt's rotation in the row of its translation, and the curvature in the row of its rotation: these two
     /// rows.
     fn turned(&self, formed: &ComplexMatrix) -> [Vec<Complex64>; 2] {
         let columns = 0..formed.ncols();
         let rotation = columns.clone().map(|other| formed[(self.y + 1, other)]);
-        let weights = self.bend.map(|bend| bend.curvature(self.omega));
         let curvature = columns.map(|other| {
-            let weights = weights.iter().flatten();
+            let weights = self.curvature.iter();
             weights
                 .map(|&(dof, weight)| formed[(dof, other)] * weight)
                 .sum()
         });
         let mut curvature: Vec<Complex64> = curvature.collect();
-        for (motion, by_load) in self.bend.iter().flat_map(|bend| bend.by_loads(self.omega)) {
+        for &(motion, by_load) in &self.by_loads {
             curvature[motion] += by_load;
         }
         [rotation.collect(), curvature]
-    }
-
-    fn jump(&self) -> f64 {
-        self.bend.map_or(0.0, |bend| bend.jump)
     }
 
     /// (1 − δT) H (1 − δT)ᵀ, and the jump: what was measured δ away from the bolt, carried to it.
@@ -182,7 +190,7 @@ impl Beside<'_> {
             formed.transpose_mut();
         }
         let theta = self.y + 1;
-        formed[(theta, theta)] -= self.jump() * by_m;
+        formed[(theta, theta)] -= self.jump * by_m;
     }
 
     /// T H + H Tᵀ, and the jump: what was measured a unit away from the bolt.
@@ -195,7 +203,7 @@ impl Beside<'_> {
             }
         }
         let theta = self.y + 1;
-        change[(theta, theta)] += self.jump();
+        change[(theta, theta)] += self.jump;
         change
     }
 }
@@ -253,11 +261,7 @@ mod tests {
             let bends = between_bolts(&positions, beam(0.0), &joint());
             let bends = with_loads_between(bends, &positions, &[Some(point)], &joint());
             for bolt in 0..2 {
-                let beside = Beside {
-                    y: 2 * bolt,
-                    bend: bends[bolt].as_ref(),
-                    omega: 1.0,
-                };
+                let beside = Beside::new(2 * bolt, bends[bolt].as_ref(), 1.0);
                 let mut moved = [bolts; 2];
                 moved[0][bolt] += by;
                 moved[1][bolt] -= by;

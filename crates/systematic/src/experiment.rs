@@ -10,7 +10,8 @@ use super::bending_shape::Waves;
 use super::cause::Side;
 use super::measured::Measured;
 use super::modal_fit::ModalFit;
-use super::slope::{Kind, Place, PointSlopes, slope};
+use super::place::{Kind, Place};
+use super::slope::{PointSlopes, slope};
 
 /// Receptances of one line.
 pub type ComplexMatrix = DMatrix<Complex64>;

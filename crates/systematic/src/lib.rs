@@ -25,6 +25,7 @@ mod line;
 mod measured;
 mod modal_fit;
 mod normal;
+mod place;
 mod refine;
 mod score;
 mod search;

@@ -7,7 +7,7 @@ use super::bending::flexibility_from_drive_points;
 use super::bending_fit::{Beam, beam};
 use super::bends::{AtBolt, between_bolts, with_loads_between};
 use super::experiment::{JointShape, MeasuredFunctions};
-use super::slope::{Kind, Place};
+use super::place::{Kind, Place};
 
 /// A structure formed from measured functions.
 #[derive(Clone, Debug)]

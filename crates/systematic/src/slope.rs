@@ -1,14 +1,15 @@
 //! How a structure is inclined at a point, by its motion at points and bolts near by: what a sensor reads that is not where it is
 //! said to be.
 //!
-//! Between two bolts nothing acts on a structure but its own inertia, so that a polynomial through translations, and through
-//! rotations where these are known, follows it. At a bolt a force and a moment act: a polynomial across it does not. Where the
-//! load of a function acts at ξ, its shear force jumps, and the third derivative by 1/EI: the polynomial is that of
-//! w − |x − ξ|³/12EI.
+//! Between two bolts nothing acts on a structure but its own inertia, so that a sum of shapes ([`super::bending_shape`]) through
+//! translations, and through rotations where these are known, follows it. At a bolt a force and a moment act: a sum across it does
+//! not. Where the load of a function acts at ξ, its shear force jumps, and the third derivative by 1/EI: the sum is that of
+//! w − C₃(|x − ξ|)/2EI.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::bending_shape::{Waves, shape, slope_of_shape};
+use super::bending_shape::Waves;
+use super::place::{Condition, Kind, Place};
 
 /// Places that a slope is taken through, two to each side inside.
 const NEAR: usize = 5;
@@ -16,25 +17,6 @@ const NEAR: usize = 5;
 const CUBIC: usize = 4;
 /// Part of the distance of the nearest place within which a point is at a bolt.
 const AT_A_BOLT: f64 = 1e-9;
-
-/// A point or a bolt of a structure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
-    /// Position along the structure, m.
-    pub(crate) x_m: f64,
-    /// Which of all motions its translation is.
-    pub(crate) translation: usize,
-    pub(crate) kind: Kind,
-}
-
-/// What is known of a place beside its translation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// A point, where nothing acts.
-    Point,
-    /// A bolt, and which of all motions its rotation is, if it has one.
-    Bolt { rotation: Option<usize> },
-}
 
 /// The slopes at all points of an assembly.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,15 +59,14 @@ pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64], waves: Waves) -
     let weights = weights(x_m, &conditions, bending);
     let by_load = |load_m: &f64| {
         let reached = conditions.iter().zip(&weights);
-        let of_places = reached.map(|(condition, weight)| {
-            let distance = condition.x_m - load_m;
-            let there = match condition.is_rotation {
-                true => jump_slope(distance, bending),
-                false => jump(distance, bending),
-            };
-            weight * there
-        });
-        jump_slope(x_m - load_m, bending) - of_places.sum::<f64>()
+        let of_places =
+            reached.map(|(condition, weight)| weight * condition.by_load(*load_m, bending));
+        let own = Condition {
+            motion: 0,
+            x_m,
+            is_rotation: true,
+        };
+        own.by_load(*load_m, bending) - of_places.sum::<f64>()
     };
     Slope {
         by_loads: match weights.len() {
@@ -100,45 +81,18 @@ pub(crate) fn slope(x_m: f64, places: &[Place], loads_m: &[f64], waves: Waves) -
     }
 }
 
-/// C₃(|d|)/2, whose third derivative jumps by one: |d|³/12 where nothing moves.
-fn jump(distance_m: f64, bending: f64) -> f64 {
-    shape(3, distance_m.abs(), bending) / 2.0
-}
-
-/// Its derivative.
-fn jump_slope(distance_m: f64, bending: f64) -> f64 {
-    distance_m.signum() * slope_of_shape(3, distance_m.abs(), bending) / 2.0
-}
-
-/// What a polynomial has to meet.
-struct Condition {
-    motion: usize,
-    x_m: f64,
-    is_rotation: bool,
-}
-
 /// The rotation alone where the position is that of a bolt.
 fn conditions(x_m: f64, near: &[&Place]) -> Vec<Condition> {
     let reach = reach(x_m, near.iter().map(|place| place.x_m));
-    let mut conditions = Vec::new();
-    for place in near {
-        let condition = |motion: usize, is_rotation: bool| Condition {
-            motion,
-            x_m: place.x_m,
-            is_rotation,
-        };
-        if let Kind::Bolt {
-            rotation: Some(rotation),
-        } = place.kind
-        {
-            if (place.x_m - x_m).abs() <= AT_A_BOLT * reach {
-                return vec![condition(rotation, true)];
-            }
-            conditions.push(condition(rotation, true));
-        }
-        conditions.push(condition(place.translation, false));
+    let all = near.iter().flat_map(|place| place.conditions());
+    let all: Vec<Condition> = all.collect();
+    let is_own = |condition: &&Condition| {
+        condition.is_rotation && (condition.x_m - x_m).abs() <= AT_A_BOLT * reach
+    };
+    match all.iter().find(is_own) {
+        Some(rotation) => vec![*rotation],
+        None => all,
     }
-    conditions
 }
 
 /// Distance of the furthest of some positions.
@@ -159,13 +113,8 @@ fn weights(x_m: f64, conditions: &[Condition], bending: f64) -> Vec<f64> {
         return Vec::new();
     }
     // rows of C_n(t) and of their derivatives, t = (x − x₀)/L
-    let bending = bending * length.powi(4);
     let matrix = DMatrix::from_fn(count, count, |row, n| {
-        let t = (conditions[row].x_m - x_m) / length;
-        match conditions[row].is_rotation {
-            false => shape(n, t, bending),
-            true => slope_of_shape(n, t, bending) / length,
-        }
+        conditions[row].of_shape(n, x_m, length, bending)
     });
     // w′(x₀) = c₁/L of the coefficients c
     let mut wanted = DVector::zeros(count);

@@ -151,12 +151,9 @@ impl Measured {
         formed
     }
 
-    fn beside(&self, dofs_of_a_bolt: usize, bolt: usize, omega: f64) -> Beside<'_> {
-        Beside {
-            omega,
-            y: bolt * dofs_of_a_bolt,
-            bend: self.at_bolts.get(bolt).and_then(|at| at.bend.as_ref()),
-        }
+    fn beside(&self, dofs_of_a_bolt: usize, bolt: usize, omega: f64) -> Beside {
+        let bend = self.at_bolts.get(bolt).and_then(|at| at.bend.as_ref());
+        Beside::new(bolt * dofs_of_a_bolt, bend, omega)
     }
 
     /// The same with the causes: EI of the correction, and the joint where it is.

@@ -129,14 +129,19 @@ def in_scipy(law, times):
     return found
 
 
-@pytest.mark.parametrize("law", [IWAN, VALANIS, DAHL, BOUC_WEN, LUGRE], ids=lambda law: law["law"])
+def lap_and_motion(law):
+    """A lap with this law, and how SciPy moves it at the points."""
+    bodies = {"a": body([1.0], [STIFFNESS], [DAMPING]), "b": body([1e12], [0.0], [0.0])}
+    file = changed(joint(["y"], [[0.0]], [[0.0]], [0.0], bodies), friction=[{"dof": "y", **law}])
+    return file, in_scipy(law, END * np.arange(1, POINTS + 1) / POINTS)
+
+
+each_law = pytest.mark.parametrize("law", [IWAN, VALANIS, DAHL, BOUC_WEN, LUGRE], ids=lambda law: law["law"])
+
+
+@each_law
 def test_a_lap_follows_the_located_turns(slave, law):
-    file = changed(
-        joint(["y"], [[0.0]], [[0.0]], [0.0], {"a": body([1.0], [STIFFNESS], [DAMPING]), "b": body([1e12], [0.0], [0.0])}),
-        friction=[{"dof": "y", **law}],
-    )
-    times = END * np.arange(1, POINTS + 1) / POINTS
-    expected = in_scipy(law, times)
+    file, expected = lap_and_motion(law)
     errors = []
     for steps in (100, 400):
         size = END / POINTS / steps
@@ -155,14 +160,9 @@ def test_a_lap_follows_the_located_turns(slave, law):
     assert order > least_order
 
 
-@pytest.mark.parametrize("law", [IWAN, VALANIS, DAHL, BOUC_WEN, LUGRE], ids=lambda law: law["law"])
+@each_law
 def test_its_steps_are_as_accurate_as_was_asked_for(slave, law):
-    file = changed(
-        joint(["y"], [[0.0]], [[0.0]], [0.0], {"a": body([1.0], [STIFFNESS], [DAMPING]), "b": body([1e12], [0.0], [0.0])}),
-        friction=[{"dof": "y", **law}],
-    )
-    times = END * np.arange(1, POINTS + 1) / POINTS
-    expected = in_scipy(law, times)
+    file, expected = lap_and_motion(law)
     for wanted in (1e-3, 1e-5, 1e-7):
         instance = slave(file, "lap", "--step-error", repr(wanted))
         instance.initialise(**{"a.F": FORCE})

@@ -160,8 +160,8 @@ impl Told {
     }
 }
 
-/// How often the curve of the law lies where the model's own curve is said to be, in the middle and at the end of the record that was
-/// fitted: frequencies, and damping ratios. At its beginning one slider begins to slip, and the law's curve is too steep to be taken
+/// How often what is read of the law's record without noise lies where the model's own curve is said to be, in the middle and at its
+/// end: frequencies, and damping ratios. At its beginning one slider begins to slip, and the law's curve is too steep to be taken
 /// between the amplitudes that it was read at.
 fn held_by_curve(found: &LapResponse, law: &LapResponse) -> [f64; 2] {
     let of = |response: &'_ LapResponse| {
@@ -181,9 +181,9 @@ fn held_by_curve(found: &LapResponse, law: &LapResponse) -> [f64; 2] {
     let mut held = [0.0; 2];
     for place in places {
         let point = &own[place];
-        let frequency = at(point.amplitude_m, &|at| law[at].frequency_hz.predicted);
+        let frequency = at(point.amplitude_m, &|at| law[at].frequency_hz.measured);
         let ratio = at(point.amplitude_m, &|at| {
-            law[at].damping_ratio.unwrap().predicted
+            law[at].damping_ratio.unwrap().measured
         });
         let told = [
             (point.frequency_hz.curve_95.unwrap(), frequency),

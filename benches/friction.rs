@@ -80,7 +80,7 @@ fn timed(harmonics: &Harmonics) -> f64 {
 /// What tmdsimpy says, or why there is nothing to compare with.
 fn in_tmdsimpy() -> Result<Vec<Value>, String> {
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/friction_balance.py");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/friction_balance.py");
     let case = json!({
         "mass": 1.0, "stiffness": STIFFNESS, "damping": DAMPING, "force": FORCE,
         "iwan": [IWAN.slip_force, IWAN.stiffness, IWAN.exponent, IWAN.ratio],

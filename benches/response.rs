@@ -141,7 +141,7 @@ fn agreement(stepped: &[(f64, f64)], curve: &[CurvePoint<1>]) -> f64 {
 /// What NumPy needs, s, and its curve.
 fn in_numpy() -> Option<(f64, Vec<[f64; 3]>)> {
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/harmonic_balance.py");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/harmonic_balance.py");
     let case = json!({
         "lap": { "m": [M, M], "c": [C, C], "k": [K, K], "k12": K12, "c12": C12, "k3": K3 },
         "highest": HIGHEST, "omega": OMEGA, "force": FORCE_N, "longest": LONGEST,

@@ -117,7 +117,7 @@ fn in_numpy(
     more: &[&str],
     threads: Option<&str>,
 ) -> Vec<Vec<f64>> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/identification/");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/identification/");
     let mut command = Command::new(python);
     command
         .arg(format!("{folder}{script}"))

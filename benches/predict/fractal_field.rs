@@ -61,10 +61,7 @@ fn sums(found: &[PerArea]) -> [f64; 4] {
 /// What NumPy needs, s, and its sums.
 fn in_numpy() -> Option<(f64, Vec<f64>)> {
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let script = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/benches/predict/fractal_field.py"
-    );
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/predict/fractal_field.py");
     let done = Command::new(&python)
         .args([script, &POINTS.to_string()])
         .output()

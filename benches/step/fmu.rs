@@ -6,7 +6,7 @@ use std::{
     fs, ptr,
 };
 
-use bolted_joint::export::EMBEDDED_LIBRARY;
+use bolted_joint::export::embedded_library;
 
 use crate::start_file::TOKEN;
 
@@ -62,7 +62,7 @@ impl Library {
     /// Loads the file that the executable embeds.
     pub(crate) fn load() -> Result<Self, Box<dyn Error>> {
         let file = tempfile::NamedTempFile::new()?;
-        fs::write(file.path(), EMBEDDED_LIBRARY)?;
+        fs::write(file.path(), embedded_library()?)?;
         // SAFETY: the library runs no code when it is loaded, and the types above are those of fmi3FunctionTypes.h
         unsafe {
             let library = libloading::Library::new(file.path())?;

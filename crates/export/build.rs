@@ -5,16 +5,23 @@
 
 use std::{
     env,
+    error::Error,
     ffi::OsString,
     fs,
+    io::Write as _,
     path::{Path, PathBuf},
     process::{Command, ExitCode},
 };
 
 use bolted_joint_interface::Interfaces;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
 
 #[path = "../fmu/linking.rs"]
 mod linking;
+
+/// Level of compression: it is done once, and every FMU is the smaller for it.
+const SMALLEST: i64 = 9;
 
 fn main() -> ExitCode {
     match build() {
@@ -55,8 +62,29 @@ fn build() -> Result<(), String> {
     let old_glibc = compiler.old_glibc()?;
     compiler.fmu(&dynamics, old_glibc.as_deref(), &library)?;
 
+    let packed = out.join("library.zip");
+    pack(&library, &packed).map_err(|error| format!("{}: {error}", packed.display()))?;
+
     println!("cargo:rustc-env=BOLTED_JOINT_LIBRARY={}", library.display());
+    println!(
+        "cargo:rustc-env=BOLTED_JOINT_PACKED_LIBRARY={}",
+        packed.display()
+    );
     println!("cargo:rustc-env=BOLTED_JOINT_PLATFORM={}", platform.folder);
+    Ok(())
+}
+
+/// Compresses the library once for all FMUs, as the one file of an archive.
+fn pack(library: &Path, archive: &Path) -> Result<(), Box<dyn Error>> {
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(SMALLEST))
+        .last_modified_time(DateTime::DEFAULT)
+        .unix_permissions(0o755);
+    let mut writer = ZipWriter::new(fs::File::create(archive)?);
+    writer.start_file("library", options)?;
+    writer.write_all(&fs::read(library)?)?;
+    writer.finish()?;
     Ok(())
 }
 

@@ -274,6 +274,10 @@ fn steps(step: &StepSize) -> String {
     let why = match step.choice {
         StepChoice::Given => "as given".to_owned(),
         StepChoice::Accuracy => format!("for |λ|max = {} 1/s", number(step.largest_modulus, 3)),
+        StepChoice::AccuracyAtRest => format!(
+            "for |λ|max = {} 1/s at rest; how accurate it is where the joint slips is not known (--step-error)",
+            number(step.largest_modulus, 3)
+        ),
         StepChoice::Error { found, .. } => format!("error {}", number(found, 2)),
         StepChoice::NoModes => "nothing moves by itself".to_owned(),
     };
@@ -290,7 +294,10 @@ fn as_json(exported: &Exported, fmu: &Path) -> serde_json::Value {
         "step_size_max_s": exported.step.map(|step| step.longest_s),
         "step_error": exported.step.and_then(|step| match step.choice {
             StepChoice::Error { found, .. } => Some(found),
-            StepChoice::Given | StepChoice::Accuracy | StepChoice::NoModes => None,
+            StepChoice::Given
+            | StepChoice::Accuracy
+            | StepChoice::AccuracyAtRest
+            | StepChoice::NoModes => None,
         }),
         "escape_amplitude": exported.escape_amplitude,
         "platforms": exported.libraries().iter().map(|library| &library.platform).collect::<Vec<_>>(),

@@ -16,7 +16,7 @@ use super::parameters::start_value;
 use super::platforms::Library;
 use super::reference_run::{ReferenceRun, step_of_error};
 use super::start_file::{laws_line, parameter_lines, start_file, table_lines};
-use super::step::{Experiment, StepSize, StepWish};
+use super::step::{Experiment, StepChoice, StepSize, StepWish};
 use super::terminals::{self, terminals_and_icons};
 use super::token::token;
 use super::{ExportError, FmiVersion, Interface, Timestamp};
@@ -376,7 +376,12 @@ fn sized_lap_facts<const D: usize>(
         // eigenvalues know nothing of what slips
         StepWish::Accurate if lap.joint.has_memory() => match of_error(ERROR_WITH_MEMORY) {
             Ok(shorter) if shorter.longest_s < step.longest_s => Ok(facts(shorter)),
-            Ok(_) | Err(_) => Ok(facts_of_accurate),
+            Ok(_) => Ok(facts_of_accurate),
+            Err(_) if step.choice == StepChoice::Accuracy => Ok(facts(StepSize {
+                choice: StepChoice::AccuracyAtRest,
+                ..step
+            })),
+            Err(_) => Ok(facts_of_accurate),
         },
         StepWish::Accurate | StepWish::AtMost(_) => Ok(facts_of_accurate),
     }

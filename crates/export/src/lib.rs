@@ -40,7 +40,7 @@ pub use fmu::{ExportOptions, Exported, fmu_bytes};
 pub use interface::Interface;
 pub use package::{Entry, Packed};
 pub use parameters::start_value;
-pub use platforms::{EMBEDDED_LIBRARY, EMBEDDED_PLATFORM, Library, LibrarySource};
+pub use platforms::{EMBEDDED_PLATFORM, Library, LibrarySource, embedded_library};
 pub use provenance::provenance;
 pub use start_file::{
     AssemblyStartFile, ListedVariable, StartFile, dofs_text, laws_line, parameter_lines,

@@ -28,10 +28,10 @@ pub struct Packed {
 
 impl Packed {
     /// The archive of these files, without libraries of its own.
-    pub(super) fn of(files: &[File], date: Timestamp) -> Result<Self, ExportError> {
+    pub(super) fn of(files: Vec<File>, date: Timestamp) -> Result<Self, ExportError> {
         let entries = files.iter().map(|file| Entry {
             path: file.path.clone(),
-            size: file.bytes.len(),
+            size: file.content.size(),
         });
         Ok(Self {
             libraries: Vec::new(),
@@ -72,12 +72,12 @@ pub(super) fn packed(
         libraries.push(binary.library);
         files.push(File {
             path: binary.path,
-            bytes: binary.bytes,
+            content: binary.content,
             executable: true,
         });
     }
     Ok(Packed {
         libraries,
-        ..Packed::of(&files, date)?
+        ..Packed::of(files, date)?
     })
 }

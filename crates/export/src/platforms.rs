@@ -4,10 +4,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::archive::Content;
 use super::{ExportError, FmiVersion};
 
-/// The FMU library of the platform that this program was built for.
-pub const EMBEDDED_LIBRARY: &[u8] = include_bytes!(env!("BOLTED_JOINT_LIBRARY"));
+/// The FMU library of the platform that this program was built for, as the one file of an archive.
+const EMBEDDED_LIBRARY: &[u8] = include_bytes!(env!("BOLTED_JOINT_PACKED_LIBRARY"));
 
 /// That platform, as FMI 3.0 names it.
 pub const EMBEDDED_PLATFORM: &str = env!("BOLTED_JOINT_PLATFORM");
@@ -76,7 +77,16 @@ pub enum LibrarySource {
 pub(super) struct Binary {
     pub(super) library: Library,
     pub(super) path: String,
-    pub(super) bytes: Vec<u8>,
+    pub(super) content: Content,
+}
+
+/// The FMU library of [`EMBEDDED_PLATFORM`].
+///
+/// # Errors
+///
+/// [`ExportError::Archive`] where what this program carries is damaged.
+pub fn embedded_library() -> Result<Vec<u8>, ExportError> {
+    Content::packed(EMBEDDED_LIBRARY)?.bytes()
 }
 
 /// The embedded library and those in `folder`, by platform; a library in the folder comes before the embedded one.
@@ -101,7 +111,7 @@ pub(super) fn binaries(
                     source: LibrarySource::Embedded,
                 },
                 path,
-                bytes: EMBEDDED_LIBRARY.to_vec(),
+                content: Content::packed(EMBEDDED_LIBRARY)?,
             });
         }
     }
@@ -145,7 +155,7 @@ fn from_folder(folder: &Path, name: &str, version: FmiVersion) -> Result<Vec<Bin
                 platform: version.platform_folder(&platform).to_owned(),
                 source: LibrarySource::File(library),
             },
-            bytes,
+            content: Content::Bytes(bytes),
         });
     }
     if found.is_empty() {
@@ -195,8 +205,11 @@ mod tests {
         let found = binaries(None, "bolted_joint", FmiVersion::V3).unwrap();
         assert_eq!(found.len(), 1);
         let system = system_of(&found[0].library.platform).unwrap();
-        assert!(found[0].bytes.starts_with(system.magic[0]) || cfg!(target_os = "macos"));
-        assert!(found[0].bytes.len() > 10_000);
+        let bytes = embedded_library().unwrap();
+        assert!(bytes.starts_with(system.magic[0]) || cfg!(target_os = "macos"));
+        assert!(bytes.len() > 10_000 && found[0].content.size() == bytes.len());
+        // as the compiler wrote it
+        assert_eq!(bytes, fs::read(env!("BOLTED_JOINT_LIBRARY")).unwrap());
     }
 
     #[test]
@@ -223,12 +236,12 @@ mod tests {
 
         let own = &binaries(None, "bolted_joint", FmiVersion::V3).unwrap()[0];
         let file = own.path.strip_prefix("binaries/").unwrap();
-        let mut other = own.bytes[..4].to_vec();
+        let mut other = embedded_library().unwrap()[..4].to_vec();
         other.extend(b" another build");
         let folder = folder_with(&[(file, &other)]);
-        let found = binaries(Some(folder.path()), "bolted_joint", FmiVersion::V3).unwrap();
+        let mut found = binaries(Some(folder.path()), "bolted_joint", FmiVersion::V3).unwrap();
         assert_eq!(found.len(), 1);
-        assert_eq!(found[0].bytes, other);
+        assert_eq!(found.remove(0).content.bytes().unwrap(), other);
     }
 
     #[test]

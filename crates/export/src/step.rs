@@ -62,6 +62,9 @@ pub enum StepChoice {
     },
     /// The fastest mode drifts by 1e-6 rad in a period with it.
     Accuracy,
+    /// That of [`Self::Accuracy`], for a joint that remembers: in the reference run no step was found that is accurate enough
+    /// where it slips, or nothing slips there.
+    AccuracyAtRest,
     /// The model has no modes that would set one.
     NoModes,
 }
@@ -77,7 +80,7 @@ impl StepSize {
     /// The step for a lap whose energies are counted: a shorter one, unless it was given.
     pub(super) fn for_energy(self) -> Self {
         match self.choice {
-            StepChoice::Accuracy => Self {
+            StepChoice::Accuracy | StepChoice::AccuracyAtRest => Self {
                 longest_s: rounded_down(PART_FOR_ENERGY * self.longest_s, 2),
                 ..self
             },

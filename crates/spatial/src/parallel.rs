@@ -4,16 +4,19 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Lines of one piece of work.
+/// Lines of one piece of work, …
 const LENGTH: usize = 16;
+/// … and where every line takes long, or there are no more than these.
 const FEW: usize = 4;
+const FEW_LINES: usize = 64;
 
 /// Work on pieces of consecutive lines; the results in their order.
 pub(crate) fn over_lines<T: Send, E: Send>(
     lines: usize,
     work: impl Fn(Range<usize>) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
-    in_pieces(lines, LENGTH, work)
+    let length = if lines > FEW_LINES { LENGTH } else { FEW };
+    in_pieces(lines, length, work)
 }
 
 /// Likewise, where every line takes long.

@@ -77,9 +77,20 @@ pub(crate) fn together(
     let best = best.ok_or(SpatialError::NoStart)?;
     // a minimum that nothing confirms may be another one
     let is_confirmed = agreeing > 1 || explained(&best);
-    let mut fit = Fit::from(&problem.thinned(LINES_MAX), best.unknowns, level)?;
+    // what nothing explains has no bottom that is worth the way there
+    let effort = match lags(&thin, best.cost) && !is_confirmed {
+        true => Effort::Coarse,
+        false => Effort::Full,
+    };
+    let lines = problem.thinned(LINES_MAX);
+    let mut fit = Fit::of(&lines, best.unknowns, level, effort)?;
     fit.has_converged &= is_confirmed;
     Ok((fit, [tried, agreeing]))
+}
+
+/// Whether squares are many more than noise leaves.
+fn lags(problem: &Problem, cost: f64) -> bool {
+    cost > LAGGING * problem.numbers() as f64
 }
 
 /// From one start, whose squares are known.
@@ -98,7 +109,7 @@ fn let_down(
         let own: Deviations = level.iter().map(|level| factor * level).collect();
         let fit = Fit::of(problem, unknowns, &own, Effort::Coarse)?;
         unknowns = fit.unknowns;
-        if step >= PATIENCE && fit.cost > LAGGING * problem.numbers() as f64 {
+        if step >= PATIENCE && lags(problem, fit.cost) {
             return Ok(Fit {
                 cost: cost(problem, &unknowns, level)?,
                 unknowns,

@@ -43,6 +43,9 @@ fn step_size(lap: &LapFacts, version: FmiVersion) -> String {
         StepChoice::Accuracy => {
             "picked so that the fastest mode drifts by at most 10<sup>−6</sup> rad in one of its periods".to_owned()
         }
+        StepChoice::AccuracyAtRest => "picked so that the fastest mode about rest drifts by at most 10<sup>−6</sup> rad in one of its \
+             periods; how accurate it is where the joint slips is not known"
+            .to_owned(),
         StepChoice::Given => "given by whoever exported the FMU".to_owned(),
         StepChoice::Error { found, .. } => format!(
             "picked so that motions and joint loads of the reference run are wrong by {} of their largest values",

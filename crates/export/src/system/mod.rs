@@ -10,7 +10,7 @@ mod ssd;
 
 use bolted_joint_assembly::{AssemblyModel, PlacedJoint};
 
-use super::archive::File;
+use super::archive::{Content, File};
 use super::assembly::{AssemblyOptions, assembly_fmu};
 use super::fmu::{ExportOptions, Exported, fmu_bytes};
 use super::package::Packed;
@@ -118,12 +118,16 @@ pub fn assembly_system(
         components: components.into_iter().map(|own| own.name).collect(),
         connections,
         drawn: draws.joints,
-        packed: Packed::of(&all, date)?,
+        packed: Packed::of(all, date)?,
     })
 }
 
 fn fmu_file(name: &str, bytes: &[u8]) -> File {
-    File::bytes(&fmu_path(name), bytes)
+    File {
+        path: fmu_path(name),
+        content: Content::Archive(bytes.to_vec()),
+        executable: false,
+    }
 }
 
 /// Where the FMU of a component is.

@@ -127,7 +127,8 @@ fn a_million_random_calls_keep_every_promise() {
 #[test]
 fn sixteen_threads_get_the_bits_of_one() {
     prepare();
-    let of_seed = |seed| sequences(seed, 5_000);
+    let calls = number("BOLTED_JOINT_CALLS", 1_000_000);
+    let of_seed = |seed| sequences(seed, (calls / 200).max(100));
     let one_by_one: Vec<Tally> = (0..16).map(of_seed).collect();
     let together: Vec<Tally> = thread::scope(|scope| {
         let threads: Vec<_> = (0..16)

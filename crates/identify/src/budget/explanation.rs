@@ -52,10 +52,13 @@ pub(super) fn diagnosed(
     if !found.as_ref().is_some_and(|found| found.fits(settings))
         && let Some(other) = diagnosis.from_far(experiment, &plain, settings)
     {
-        let next = with_first_suspect_free(experiment, priors, &other, settings);
-        let is_better = next.as_ref().is_some_and(|next| next.fits(settings));
-        if is_better || found.is_none() {
-            found = next;
+        // from the same place it would come to the same end
+        if other.start != diagnosis.start {
+            let next = with_first_suspect_free(experiment, priors, &other, settings);
+            let is_better = next.as_ref().is_some_and(|next| next.fits(settings));
+            if is_better || found.is_none() {
+                found = next;
+            }
         }
         diagnosis = other;
     }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun, Use};
-use super::decay::{InTime, corrected, fitted, followed};
+use super::decay::{Following, InTime, corrected, fitted, followed};
 use super::fit::{self, Data, Fit, Kind};
 use super::model::Model;
 use super::passive::Limit;
@@ -20,6 +20,8 @@ const READINGS: usize = 2;
 /// … and at most for the one that is chosen, until the estimate moves by less than this part of its deviations.
 const MOST_READINGS: usize = 8;
 const READ: f64 = 0.1;
+/// Deviations within which what is read grows with the unknowns as before.
+const NEAR: f64 = 0.5;
 
 /// A model beside the others: the passive joint of it that fits best.
 #[derive(Clone, Debug, Serialize)]
@@ -161,8 +163,17 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
     let model = candidate.model(study);
     let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
     let mut found = candidate;
+    let mut moved_by = f64::INFINITY;
     for _ in 0..MOST_READINGS {
-        let read = measured.iter().map(|run| followed(&model, &found.fit, run));
+        let near = |run: &BackboneRun| match moved_by < NEAR {
+            true => run.following.clone(),
+            false => None,
+        };
+        let near: Vec<Option<Following>> = found.backbones.iter().map(near).collect();
+        let read = measured.iter().enumerate().map(|(number, run)| {
+            let near = near.get(number).and_then(Option::as_ref);
+            followed(&model, &found.fit, run, near)
+        });
         let read: Vec<BackboneRun> = read.collect();
         let backbones: Vec<&BackboneRun> = read.iter().collect();
         let data = Data {
@@ -180,7 +191,8 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
         };
         let moved = model.change(&before, &fit.values);
         let moved = moved.dot(&(&fit.information * &moved));
-        found.unrest = moved.max(0.0).sqrt();
+        moved_by = moved.max(0.0).sqrt();
+        found.unrest = moved_by;
         found.free = free.filter(|free| free.chi_squared < fit.chi_squared);
         found.fit = fit;
         found.backbones = read;

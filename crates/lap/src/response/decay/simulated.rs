@@ -16,8 +16,8 @@ use crate::response::fit::Fit;
 use crate::response::model::{Model, ResponseUnknown, Values};
 
 /// Steps in a period, and every how many of them there is a sample.
-const STEPS: f64 = 400.0;
-const EVERY: usize = 8;
+const STEPS: f64 = 200.0;
+const EVERY: usize = 4;
 /// Half the difference of ln A that slopes are taken over: of the size of what is read at once.
 const STEP: f64 = 0.1;
 /// Samples at most, and how many times as long as what was measured a model's decay may take: a model with next to no damping
@@ -67,15 +67,35 @@ impl Following {
 /// A decay corrected for the model that was fitted, with how its reading follows the unknowns.
 ///
 /// What is read depends on the model nearly as much as what the model has. A fit that took the correction as fixed would come
-/// to its end slowly, and with too small errors.
-pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun) -> BackboneRun {
-    let mut own = corrected(model, &fit.values, run);
+/// to its end slowly, and with too small errors. What `near` has is kept of how the reading follows.
+pub(in crate::response) fn followed(
+    model: &Model,
+    fit: &Fit,
+    run: &BackboneRun,
+    near: Option<&Following>,
+) -> BackboneRun {
+    let Some(read) = read(model, &fit.values, run) else {
+        return run.clone();
+    };
+    let here = beyond_reading(model, &fit.values, run, &read);
+    let mut own = corrected_by(model, &fit.values, run, &read);
+    let by = match near {
+        Some(near) => Some(near.by.clone()),
+        None => by_unknowns(model, fit, run),
+    };
+    own.following = by.map(|by| Following {
+        at: fit.values,
+        beyond: [0, 1].map(|kind| here.iter().map(|own| own[kind]).collect()),
+        by,
+    });
+    own
+}
+
+/// How what is read from a model's decay grows with the unknowns. `None` where that cannot be said.
+fn by_unknowns(model: &Model, fit: &Fit, run: &BackboneRun) -> Option<[DMatrix<f64>; 2]> {
     let beyond = |values: &Values| {
         let read = read(model, values, run)?;
         Some(beyond_reading(model, values, run, &read))
-    };
-    let Some(here) = beyond(&fit.values) else {
-        return own;
     };
     let size = (run.lines.len(), model.unknowns.len());
     let mut by = [0, 1].map(|_| DMatrix::zeros(size.0, size.1));
@@ -93,7 +113,7 @@ pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun)
         let deviation = fit.information[(column, column)].sqrt().recip();
         let step = deviation.min(longest);
         if !(step > 0.0 && step.is_finite()) {
-            return own;
+            return None;
         }
         // To both sides: two unknowns that act alike and against each other, as k and h do on the displacement of the corner,
         // would else seem to be told apart by the curvature.
@@ -104,21 +124,14 @@ pub(in crate::response) fn followed(model: &Model, fit: &Fit, run: &BackboneRun)
             }
             beyond(&moved)
         };
-        let Some((above, below)) = side(1.0).zip(side(-1.0)) else {
-            return own;
-        };
+        let (above, below) = side(1.0).zip(side(-1.0))?;
         for (line, (above, below)) in above.iter().zip(&below).enumerate() {
             for kind in [0, 1] {
                 by[kind][(line, column)] = (below[kind] - above[kind]) / (2.0 * step);
             }
         }
     }
-    own.following = Some(Following {
-        at: fit.values,
-        beyond: [0, 1].map(|kind| here.iter().map(|own| own[kind]).collect()),
-        by,
-    });
-    own
+    Some(by)
 }
 
 /// What each line of a run has beyond the model, and how long the model takes from the first amplitude to the last, s.
@@ -165,24 +178,35 @@ pub(in crate::response) fn corrected(
     values: &Values,
     run: &BackboneRun,
 ) -> BackboneRun {
-    let mut own = run.clone();
-    if let Some(read) = read(model, values, run) {
-        let corrections = corrections(model, values, run, &read);
-        for (line, [of_frequency, of_ratio]) in own.lines.iter_mut().zip(corrections) {
-            line.omega *= (-of_frequency).exp();
-            line.damping_ratio = line.damping_ratio.map(|ratio| ratio - of_ratio);
-        }
-        let slopes = own.lines.iter().map(|line| slopes(model, values, line));
-        let slopes: Vec<[f64; 2]> = slopes.collect();
-        let errors = own.errors.take();
-        own.errors = errors.map(|errors| {
-            let mut following = errors.clone();
-            match following.follow(&run.lines, &slopes) {
-                Some(()) => following,
-                None => errors,
-            }
-        });
+    match read(model, values, run) {
+        Some(read) => corrected_by(model, values, run, &read),
+        None => run.clone(),
     }
+}
+
+/// A decay corrected by what was `read` of the model's own.
+fn corrected_by(
+    model: &Model,
+    values: &Values,
+    run: &BackboneRun,
+    read: &[BackboneLine],
+) -> BackboneRun {
+    let mut own = run.clone();
+    let corrections = corrections(model, values, run, read);
+    for (line, [of_frequency, of_ratio]) in own.lines.iter_mut().zip(corrections) {
+        line.omega *= (-of_frequency).exp();
+        line.damping_ratio = line.damping_ratio.map(|ratio| ratio - of_ratio);
+    }
+    let slopes = own.lines.iter().map(|line| slopes(model, values, line));
+    let slopes: Vec<[f64; 2]> = slopes.collect();
+    let errors = own.errors.take();
+    own.errors = errors.map(|errors| {
+        let mut following = errors.clone();
+        match following.follow(&run.lines, &slopes) {
+            Some(()) => following,
+            None => errors,
+        }
+    });
     own
 }
 

@@ -1,0 +1,1 @@
+//! Nothing but the benchmarks beside it: a package has to have something that is no benchmark.

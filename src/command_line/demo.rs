@@ -19,7 +19,7 @@ use bolted_joint::identify::{
 use super::error::CliError;
 use super::export::{self, export_to};
 use super::identify::{self, basis, figure, fit, warnings};
-use super::output::{print, warn, write_file};
+use super::output::{is_standard_output, print, warn, write_file};
 use super::table::{Table, number};
 
 /// `demo`
@@ -44,6 +44,21 @@ pub(super) struct DemoArguments {
 const STUDY: &str = include_str!("../../examples/tol-m10x16/study.toml");
 const MODES: &str = include_str!("../../examples/tol-m10x16/a-modes.toml");
 const PIRDAYR: &str = include_str!("../../examples/pirdayr-ex03/pirdayr-ex03.joint.json");
+
+/// Names of what is written.
+const STUDY_NAME: &str = "study.toml";
+const NAMES: [&str; 10] = [
+    STUDY_NAME,
+    "a-modes.toml",
+    "assembly.uff",
+    "m10x16.joint.json",
+    "m10x16-frf.svg",
+    "m10x16-report.html",
+    "pirdayr-ex03.joint.json",
+    "m10x16-element.fmu",
+    "m10x16-lap.fmu",
+    "pirdayr-ex03-lap.fmu",
+];
 
 /// Lines of the thesis's measurement: 0.25 Hz apart up to 512 Hz.
 const LINE_SPACING_HZ: f64 = 0.25;
@@ -85,6 +100,7 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
             "a fraction from 0 to below 1, such as 0.01 for 1 %",
         ));
     }
+    keep_what_is_there(&arguments.output)?;
     let written = Timestamp::from_environment()?;
     let element = export::options(Interface::Element)?;
     let lap = export::options(Interface::Lap)?;
@@ -123,9 +139,29 @@ pub(super) fn run(arguments: &DemoArguments) -> Result<(), CliError> {
     print(&report(&found, arguments, &exports, &files))
 }
 
+/// Refuses a folder with files of these names that are not those of an earlier demo.
+fn keep_what_is_there(folder: &Path) -> Result<(), CliError> {
+    if is_standard_output(folder) {
+        let expected = "a folder: the demo writes several files";
+        return Err(CliError::option("--output", folder.display(), expected));
+    }
+    if fs::read(folder.join(STUDY_NAME)).is_ok_and(|study| study == STUDY.as_bytes()) {
+        return Ok(());
+    }
+    let there = NAMES.iter().map(|name| folder.join(name));
+    match there.into_iter().find(|path| path.exists()) {
+        Some(path) => Err(CliError::option(
+            "--output",
+            path.display(),
+            "a folder without files of the demo's names, or one of an earlier demo: this file would be lost",
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Writes the study and its data: the published modes, and the assembly's FRFs made from the published joint.
 fn synthesise(files: &mut Files, arguments: &DemoArguments) -> Result<Study, CliError> {
-    let path = files.write("study.toml", STUDY.as_bytes())?;
+    let path = files.write(STUDY_NAME, STUDY.as_bytes())?;
     files.write("a-modes.toml", MODES.as_bytes())?;
     let study = Study::read(&path)?;
     let frequency_hz: Vec<f64> = (1..=LINE_COUNT)

@@ -5,6 +5,7 @@ use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use bolted_joint_files::whole_file::advice;
 use thiserror::Error;
 
 use bolted_joint::assembly::AssemblyError;
@@ -38,7 +39,7 @@ pub(super) enum CliError {
     Unconvertible { path: PathBuf, source: ConvertError },
     #[error("communication step: {0}")]
     Coupling(CouplingError),
-    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
+    #[error("{}: cannot be written: {source}; {}", path.display(), advice(source))]
     Unwritable { path: PathBuf, source: io::Error },
     #[error("{}: found it to be the same file as {}, expected another; give the output a name of its own", path.display(), other.display())]
     SameFile { path: PathBuf, other: PathBuf },

@@ -18,7 +18,7 @@ use bolted_joint::show::FileKind;
 use super::error::CliError;
 use super::invocation::platforms;
 use super::kind::expect;
-use super::output::{check_output, is_standard_output, message, print, write_file};
+use super::output::{check_output, has_extension, is_standard_output, message, print, write_file};
 use super::table::number;
 
 /// `export`
@@ -170,6 +170,11 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         allow_unusable: arguments.unusable,
         ..options(interface.into())?
     };
+    if has_extension(&arguments.output, "ssp") {
+        let expected = "a name for an FMU, such as NAME.fmu: an SSP is of an assembly";
+        let found = arguments.output.display();
+        return Err(CliError::option("--output", found, expected));
+    }
     check_output(&arguments.output, &[&arguments.joint_file])?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for reason in &exported.reasons_against {

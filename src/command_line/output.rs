@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use bolted_joint_files::whole_file;
+use bolted_joint_files::{inputs, whole_file};
 
 use super::error::CliError;
 use super::invocation::with_kept;
@@ -19,8 +19,9 @@ thread_local! {
     static IS_TAKEN: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Lets standard output be free at the beginning of a command.
+/// Lets standard output be free at the beginning of a command, which has read nothing yet.
 pub(super) fn begin() {
+    inputs::watch();
     IS_TAKEN.set(false);
 }
 

@@ -7,14 +7,18 @@ mod picture;
 mod plan;
 
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
 
+use bolted_joint_files::text_file;
 use clap::{Args, Subcommand, ValueEnum};
 use nalgebra::DMatrix;
 use serde_json::json;
 
 use bolted_joint::frf::write_uff58;
-use bolted_joint::identify::{Bands, JointMatrices, Study, predict_assembly, predict_lines};
+use bolted_joint::identify::{
+    Bands, FrfFile, JointMatrices, Study, predict_assembly, predict_lines,
+};
 use bolted_joint::joint::JointFile;
 use bolted_joint::respond::{Pollution, to_csv, with_noise};
 use bolted_joint::show::FileKind;
@@ -108,6 +112,9 @@ enum NoiseProcedure {
     Response,
 }
 
+/// What stands in a universal file of functions that this command has made.
+const COMPUTED: &str = "computed, not measured";
+
 /// More lines than any analyser has.
 const MOST_LINES: f64 = 1e7;
 
@@ -176,6 +183,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         None => None,
     };
     let study = Study::of(&text)?;
+    keep_what_was_measured(output, &study)?;
     let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
     let joints = joints(joint, &study)?;
     let progress = Progress::new("responding", 0);
@@ -197,7 +205,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     match format {
         Format::Table => write_file(output, to_csv(&measured).as_bytes())?,
         Format::Universal => {
-            let description = format!("computed, not measured: {}, {what}", study.name);
+            let description = format!("{COMPUTED}: {}, {what}", study.name);
             write_uff58(&measured, output, &description)?;
         }
     }
@@ -235,6 +243,35 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         output.display()
     ))?;
     judged(joint, &study)
+}
+
+/// Refuses to replace what was measured, according to the study: that need not be there yet, but where it is, it may be all there
+/// is of it. What was computed before may be computed anew.
+fn keep_what_was_measured(output: &Path, study: &Study) -> Result<(), CliError> {
+    let further = study.further.iter();
+    let sets = std::iter::once((&study.assembly, &study.repeats))
+        .chain(further.map(|further| (&further.file, &further.repeats)));
+    let mut files = sets.flat_map(|(file, repeats)| {
+        let files = std::iter::once(file).chain(repeats);
+        files.flat_map(FrfFile::function_files)
+    });
+    let is_output = |file: &&PathBuf| match (fs::canonicalize(output), fs::canonicalize(file)) {
+        (Ok(output), Ok(file)) => output == file,
+        _ => false,
+    };
+    let is_computed = |file: &Path| {
+        let text = text_file::beginning(file).unwrap_or_default();
+        text.contains(COMPUTED)
+    };
+    match files.find(is_output) {
+        Some(file) if !is_computed(file) => Err(CliError::option(
+            "--output",
+            file.display(),
+            "a file of another name: the study says that this one was measured, and it would be lost; \
+             remove it first if that is not so",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The file to write, which is there unless a test is planned.

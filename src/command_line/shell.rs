@@ -1,5 +1,6 @@
 //! `completions` and `man`: what a shell and `man` want to know of the command line.
 
+use std::fs;
 use std::path::PathBuf;
 
 use clap::{Args, Command, ValueEnum};
@@ -31,7 +32,7 @@ enum Shell {
 /// `man`
 #[derive(Debug, Args)]
 pub(super) struct ManArguments {
-    /// Folder for a page of the program and one of each command, such as ~/.local/share/man/man1
+    /// Folder for a page of the program and one of each command, such as ~/.local/share/man/man1; it is made if it does not exist
     folder: PathBuf,
 }
 
@@ -54,6 +55,10 @@ pub(super) fn completions(
 
 /// Writes the pages of `command`.
 pub(super) fn man(arguments: &ManArguments, command: Command) -> Result<(), CliError> {
+    fs::create_dir_all(&arguments.folder).map_err(|source| CliError::Unwritable {
+        path: arguments.folder.clone(),
+        source,
+    })?;
     let mut pages = Vec::new();
     let shown = command.get_subcommands().filter(|own| !own.is_hide_set());
     let each = shown.map(|own| {

@@ -11,7 +11,7 @@ use bolted_joint::report::{ShownFile, shown_page, shown_svg};
 use bolted_joint::show::{Shown, show};
 
 use super::error::CliError;
-use super::output::{check_plot, has_extension, print, warn, write_file};
+use super::output::{check_plot, has_extension, message, print, warn, write_file};
 
 /// `show`
 #[derive(Debug, Args)]
@@ -32,8 +32,20 @@ const LABEL: usize = 14;
 
 pub(super) fn run(arguments: &ShowArguments) -> Result<(), CliError> {
     check_plot(arguments.plot.as_ref(), &arguments.files)?;
-    let all = arguments.files.iter().map(|path| Ok(show(path)?));
-    let mut all: Vec<Shown> = all.collect::<Result<_, CliError>>()?;
+    let mut all: Vec<Shown> = Vec::new();
+    let mut refused: Vec<CliError> = Vec::new();
+    for path in &arguments.files {
+        match show(path) {
+            Ok(shown) => all.push(shown),
+            Err(error) => refused.push(error.into()),
+        }
+    }
+    // what can be shown is; the last error ends the command
+    if all.is_empty()
+        && let Some(first) = refused.drain(..).next()
+    {
+        return Err(first);
+    }
     if let Some(path) = &arguments.plot {
         let drawing = drawn(path, &mut all)?;
         write_file(path, drawing.as_bytes())?;
@@ -53,6 +65,12 @@ pub(super) fn run(arguments: &ShowArguments) -> Result<(), CliError> {
             _ => format!("{}: {warning}", shown.path.display()),
         };
         warn(&shown.warnings.iter().map(of).collect::<Vec<_>>());
+    }
+    if let Some(last) = refused.pop() {
+        for error in refused {
+            message(&format!("error: {error}"));
+        }
+        return Err(last);
     }
     let mut all = all.iter();
     all.try_for_each(|shown| CliError::unless_usable(&shown.path, &shown.reasons_against))

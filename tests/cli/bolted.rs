@@ -112,6 +112,7 @@ fn what_two_bolts_answer_can_be_computed_and_identified_again() {
     let second = TRANSLATION.times(2.5);
     let bench = bolted([TRANSLATION, second], "translation", "different");
     bench.done(IDENTIFY);
+    std::fs::remove_file(bench.path("c.uff")).unwrap();
     let outcome = bench.done("respond study.toml --joint o.joint.json -o c.uff --step 3");
     has(&outcome.stdout, &["[bands]  # of right:"]);
     bench.done("identify study.toml -o again.joint.json");

@@ -20,6 +20,7 @@ mod export;
 mod identified;
 mod init;
 mod joint_file;
+mod kept;
 mod lap_response;
 mod merge;
 mod modal_file;

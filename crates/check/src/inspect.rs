@@ -207,8 +207,9 @@ fn against_joint_file(start: &StartFile, joint: &JointFile) -> Vec<String> {
         let expected = start_value(joint, step_size_max_s, name);
         let same = expected.is_some_and(|e| (e - value).abs() <= SAME_START * e.abs());
         if !same {
+            let expected = expected.map_or("none".to_owned(), |expected| format!("{expected:?}"));
             findings.push(format!(
-                "resources/start.txt: found {name} = {value:?}, expected {expected:?} from resources/joint.json"
+                "resources/start.txt: found {name} = {value:?}, expected {expected} from resources/joint.json"
             ));
         }
     }

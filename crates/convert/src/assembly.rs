@@ -9,6 +9,7 @@ use bolted_joint_files::{TOOL, VERSION};
 use nalgebra::RowDVector;
 
 use crate::head::ascii;
+use crate::reserved;
 use crate::{ConvertError, Converted, Options, Target, convert};
 
 /// Adds a line; writing to a `String` cannot fail.
@@ -39,7 +40,9 @@ pub fn convert_assembly(
                 found: name.clone(),
             });
         }
+        reserved::check(Target::Modelica, name)?;
     }
+    reserved::check(Target::Modelica, &options.identifier)?;
     let mut text = String::new();
     let package = &options.identifier;
     let notes = vec![format!("the file has to be called {package}.mo")];

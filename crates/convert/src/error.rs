@@ -38,6 +38,26 @@ pub enum ConvertError {
         /// The name.
         found: String,
     },
+    /// Numbers of nodes that mean two things at once, or that the tool does not have.
+    #[error("{key}: found {found}, expected {expected}")]
+    Numbers {
+        /// Which.
+        key: &'static str,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A name that means something else in the tool's language.
+    #[error(
+        "found the name {found:?}, a word of {language}, expected another; give the file another name"
+    )]
+    Reserved {
+        /// The name.
+        found: String,
+        /// The language.
+        language: &'static str,
+    },
     /// The numbers do not make a law.
     #[error("{0}")]
     Law(String),

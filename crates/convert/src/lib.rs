@@ -15,6 +15,8 @@ mod linear;
 mod matlab;
 mod modelica;
 mod nastran;
+mod numbers;
+mod reserved;
 
 use bolted_joint_joint::JointFile;
 
@@ -92,6 +94,8 @@ pub fn convert(
     if file.joint.over_preload.is_some() {
         return Err(ConvertError::OverPreload);
     }
+    numbers::check(target, options)?;
+    reserved::check(target, &options.identifier)?;
     let head = Head::of(file, target, options);
     match target {
         Target::Matlab => matlab::function(file, options, head),

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use bolted_joint_files::whole_file::advice;
 use thiserror::Error;
 
 use bolted_joint_files::DateError;
@@ -253,7 +254,7 @@ pub enum ExportError {
     #[error("the FMU's archive cannot be made: {0}")]
     Archive(#[from] zip::result::ZipError),
     /// The FMU cannot be written.
-    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
+    #[error("{}: cannot be written: {source}; {}", path.display(), advice(source))]
     Unwritable {
         /// Path of the FMU.
         path: PathBuf,

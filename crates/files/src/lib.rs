@@ -2,6 +2,7 @@
 //! are written whole or not at all, and who wrote them and when.
 #![forbid(unsafe_code)]
 
+pub mod inputs;
 mod number;
 pub mod text_file;
 pub mod text_table;

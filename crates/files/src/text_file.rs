@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::inputs;
+
 /// Why a text file cannot be read.
 #[derive(Debug, Error)]
 pub enum TextFileError {
@@ -82,10 +84,21 @@ pub const LONGEST_FILE: u64 = 1 << 24;
 /// What is in a file; `None` if that is more than [`LONGEST_FILE`] bytes.
 pub fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
-    File::open(path)?
+    inputs::open(path)?
         .take(LONGEST_FILE + 1)
         .read_to_end(&mut bytes)?;
     Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= LONGEST_FILE))
+}
+
+/// What a file begins with, at most 4 KiB of it, as text.
+///
+/// # Errors
+///
+/// What the operating system says.
+pub fn beginning(path: &Path) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(4096).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// The text of `path`, which should hold `expected`.

@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use crate::inputs;
+
 /// Writes `contents` to `path` through a temporary file in the same folder that is renamed at the end.
 ///
 /// A symbolic link keeps pointing where it did. What is no regular file (a pipe, `/dev/stdout`) is written to directly.
@@ -70,6 +72,15 @@ fn replace(prepared: Vec<(&Path, Prepared, Option<Vec<u8>>)>) -> Result<(), (Pat
     Ok(())
 }
 
+/// What to do where a file cannot be written, by what the operating system or [`inputs::check`] says.
+#[must_use]
+pub fn advice(source: &io::Error) -> &'static str {
+    match source.kind() {
+        io::ErrorKind::AlreadyExists => "give the output a name of its own",
+        _ => "give a path in a folder that exists and may be written to",
+    }
+}
+
 /// A complete file beside the one that it is to become.
 struct Prepared {
     temporary: tempfile::NamedTempFile,
@@ -85,6 +96,7 @@ impl Prepared {
             Ok(_) => fs::canonicalize(path)?,
             Err(_) => path.to_path_buf(),
         };
+        inputs::check(&target)?;
         let mut temporary = new_temporary(&folder_of(&target))?;
         temporary.write_all(contents)?;
         temporary.as_file().sync_all()?;

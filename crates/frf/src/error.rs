@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use bolted_joint_files::whole_file::advice;
 use num_complex::Complex64;
 use thiserror::Error;
 
@@ -237,7 +238,7 @@ pub enum FrfError {
         source: io::Error,
     },
     /// A file cannot be written.
-    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
+    #[error("{}: cannot be written: {source}; {}", path.display(), advice(source))]
     Write {
         /// The file.
         path: PathBuf,

@@ -4,6 +4,8 @@ use std::fs::{File, Metadata};
 use std::io::{BufRead, BufReader, Read, Seek};
 use std::path::Path;
 
+use bolted_joint_files::inputs;
+
 use super::counted::Counted;
 use super::csv::read_csv_from;
 use super::mat::read_mat_from;
@@ -95,7 +97,7 @@ pub fn read_frfs_watched(
 
 /// A file that is to be read.
 pub(crate) fn opened(path: &Path) -> Result<File, FrfError> {
-    File::open(path).map_err(|source| FrfError::Read {
+    inputs::open(path).map_err(|source| FrfError::Read {
         path: path.to_owned(),
         source,
     })

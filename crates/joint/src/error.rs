@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
+use bolted_joint_files::whole_file::advice;
 use thiserror::Error;
 
 use super::{Format, JointProblem};
@@ -22,7 +23,7 @@ pub enum JointFileError {
         source: io::Error,
     },
     /// The file cannot be written.
-    #[error("{}: cannot be written: {source}; give a path in a folder that exists and may be written to", path.display())]
+    #[error("{}: cannot be written: {source}; {}", path.display(), advice(source))]
     Unwritable {
         /// Path of the file.
         path: PathBuf,

@@ -11,20 +11,24 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein distance: insertions, deletions and replacements of a letter.
+/// Insertions, deletions, replacements and exchanges of neighbouring letters (Levenshtein's distance with exchanges).
 fn edits(from: &str, to: &str) -> usize {
-    let to: Vec<char> = to.to_lowercase().chars().collect();
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (i, letter) in from.to_lowercase().chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, other) in to.iter().enumerate() {
-            let replaced = diagonal + usize::from(letter != *other);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+    let [from, to] = [from, to].map(|word| word.to_lowercase().chars().collect::<Vec<char>>());
+    let first: Vec<usize> = (0..=to.len()).collect();
+    let mut rows = vec![first];
+    for i in 0..from.len() {
+        let mut row = vec![i + 1];
+        for j in 0..to.len() {
+            let replaced = rows[i][j] + usize::from(from[i] != to[j]);
+            let mut least = replaced.min(row[j] + 1).min(rows[i][j + 1] + 1);
+            if i > 0 && j > 0 && from[i] == to[j - 1] && from[i - 1] == to[j] {
+                least = least.min(rows[i - 1][j - 1] + 1);
+            }
+            row.push(least);
         }
+        rows.push(row);
     }
-    row[to.len()]
+    rows[from.len()][to.len()]
 }
 
 #[cfg(test)]
@@ -32,8 +36,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_distance_is_levenshteins() {
+    fn the_distance_is_levenshteins_with_exchanges() {
         for (from, to, expected) in [
+            ("heigth", "height", 1),
             ("kitten", "sitting", 3),
             ("stifness", "stiffness", 1),
             ("", "abc", 3),

@@ -25,10 +25,8 @@ pub enum RespondError {
         /// What the balance says.
         source: HarmonicError,
     },
-    /// A level of noise that is negative or not finite.
-    #[error(
-        "noise level: found {0}, expected a finite fraction that is not negative, such as 0.01 for 1 %"
-    )]
+    /// A level of noise that is no fraction.
+    #[error("noise level: found {0}, expected a fraction from 0 to below 1, such as 0.01 for 1 %")]
     NoiseLevel(f64),
     /// Too few samples for a line of a discrete Fourier transform.
     #[error(

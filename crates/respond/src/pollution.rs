@@ -62,7 +62,7 @@ impl Pollution {
     /// [`RespondError`] that says which does not.
     pub fn checked(self) -> Result<Self, RespondError> {
         let (Self::Frf { level } | Self::Response { level, .. }) = self;
-        if !(level.is_finite() && level >= 0.0) {
+        if !(0.0..1.0).contains(&level) {
             return Err(RespondError::NoiseLevel(level));
         }
         match self {

@@ -125,6 +125,9 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
             names.collect::<Vec<_>>().join(", ")
         ));
     }
+    if !refused.is_empty() {
+        notes.push(format!("not read: {}", refused.trim_start_matches("; ")));
+    }
     notes.push("the points of the joint are guesses: look for CHECK in the study".to_owned());
     Ok(Draft {
         text: text(a, b, &assembly),

@@ -1,11 +1,10 @@
 //! What kind of file a path is: told by how it begins, and by its name where that leaves it open.
 
 use std::fmt;
-use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use bolted_joint_files::text_file;
+use bolted_joint_files::{inputs, text_file};
 use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
@@ -52,7 +51,7 @@ impl FileKind {
             return Self::Folder;
         }
         let mut beginning = Vec::new();
-        let is_read = File::open(path)
+        let is_read = inputs::open(path)
             .and_then(|file| file.take(LOOKED_AT).read_to_end(&mut beginning))
             .is_ok();
         if !is_read || beginning.iter().all(u8::is_ascii_whitespace) {
@@ -120,7 +119,7 @@ fn of_json(text: &str) -> FileKind {
 }
 
 fn of_zip(path: &Path) -> FileKind {
-    let names: Vec<String> = match File::open(path).map(ZipArchive::new) {
+    let names: Vec<String> = match inputs::open(path).map(ZipArchive::new) {
         Ok(Ok(archive)) => archive
             .file_names()
             .filter_map(|name| name.ok())

@@ -1,12 +1,11 @@
 //! Where a joint comes from: the files behind it, by their hashes.
 
-use std::fs::File;
 use std::io::{self, ErrorKind, Read as _};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use bolted_joint_files::text_file::TextFileError;
+use bolted_joint_files::{inputs, text_file::TextFileError};
 use bolted_joint_joint::{InputFile, Provenance};
 
 use super::{Method, StudyError, StudyText};
@@ -80,7 +79,7 @@ fn record(role: &str, path: &Path, folder: &Path, digest: &[u8]) -> InputFile {
 
 /// SHA-256 of a file, which may be larger than the memory.
 fn digest(path: &Path, mut progress: impl FnMut(u64, u64)) -> io::Result<Vec<u8>> {
-    let mut file = File::open(path)?;
+    let mut file = inputs::open(path)?;
     let of = file.metadata()?.len();
     let mut digest = Sha256::new();
     let mut piece = vec![0; PIECE];

@@ -3,7 +3,7 @@
 use std::io::BufReader;
 use std::path::Path;
 
-use bolted_joint_files::text_file::TextFileError;
+use bolted_joint_files::{inputs, text_file::TextFileError};
 
 use super::{SpatialModel, StructureError};
 use crate::{Dof, mat, npz};
@@ -25,7 +25,7 @@ impl NamedMatrices {
     /// [`StructureError::File`] if the file cannot be read, [`StructureError::Arrays`] with the array, what was found and what was
     /// expected if it cannot be used.
     pub fn read(path: &Path) -> Result<Self, StructureError> {
-        let file = std::fs::File::open(path).map_err(|source| TextFileError::Unreadable {
+        let file = inputs::open(path).map_err(|source| TextFileError::Unreadable {
             path: path.to_owned(),
             source,
         })?;

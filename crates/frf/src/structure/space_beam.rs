@@ -250,7 +250,8 @@ impl SpaceBeam {
         let is_ratio = |own: &f64| own.is_finite() && (0.0..1.0).contains(own);
         if self.damping_ratio.is_empty() || !self.damping_ratio.iter().all(is_ratio) {
             let found = format!("{:?}", self.damping_ratio);
-            let expected = "a number from 0 and below 1 for each elastic mode, one at least";
+            let expected =
+                "a ratio from 0 to below 1 (not per cent) for each elastic mode, one at least";
             return refuse("damping_ratio", found, expected);
         }
         if self.points.len() < 2 {

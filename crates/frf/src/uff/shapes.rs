@@ -1,10 +1,10 @@
 //! Mode shapes in a universal file: data sets 55 (data at nodes) and 2414 (analysis data), of normal and of complex modes.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+use bolted_joint_files::inputs;
 use num_complex::Complex64;
 
 use super::datasets::{Begun, Units};
@@ -99,7 +99,7 @@ impl Kind {
 /// Whether the first data set of functions or shapes in a universal file is one of shapes.
 #[must_use]
 pub fn begins_with_shapes(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else {
+    let Ok(file) = inputs::open(path) else {
         return false;
     };
     let mut lines = Lines::new(BufReader::new(file), path, None);

@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use bolted_joint_files::inputs;
 use num_complex::Complex64;
 
 use super::ByteOrder;
@@ -62,7 +63,8 @@ fn whole_file(
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(format!(".{}.part", std::process::id()));
     let temporary = Path::new(&temporary);
-    let written = File::create(temporary)
+    let written = inputs::check(path)
+        .and_then(|()| File::create(temporary))
         .and_then(|file| {
             let mut writer = BufWriter::new(file);
             write(&mut writer)?;

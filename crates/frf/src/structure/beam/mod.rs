@@ -210,9 +210,19 @@ impl Beam {
                 expected: "one number or a number for each mode",
             });
         }
-        values.iter().try_for_each(|&found| {
-            let valid = found.is_finite() && found >= 0.0;
-            check(valid, key, found, "a finite number that is not negative")
+        values.iter().try_for_each(|&found| match &self.damping {
+            Damping::Ratios(_) => check(
+                (0.0..1.0).contains(&found),
+                key,
+                found,
+                "a ratio from 0 to below 1 (not per cent)",
+            ),
+            Damping::LossFactor(_) => check(
+                found.is_finite() && found >= 0.0,
+                key,
+                found,
+                "a finite number that is not negative",
+            ),
         })
     }
 }

@@ -1,9 +1,9 @@
 //! Modes of a universal file (data sets 55 and 2414), made into those of a substructure: SI, unit modal masses, names of points.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};
 use std::path::Path;
 
+use bolted_joint_files::inputs;
 use num_complex::Complex64;
 
 use std::f64::consts::TAU;
@@ -30,7 +30,7 @@ const DIRECTIONS: [Direction; 6] = [
 /// Whether the file at `path` is a universal file.
 pub(super) fn is_one(path: &Path) -> bool {
     let mut beginning = Vec::new();
-    let is_read = File::open(path)
+    let is_read = inputs::open(path)
         .and_then(|file| file.take(LOOKED_AT).read_to_end(&mut beginning))
         .is_ok();
     is_read && Container::told_by(path, &beginning) == Some(Container::Universal)
@@ -38,7 +38,7 @@ pub(super) fn is_one(path: &Path) -> bool {
 
 /// Reads the modes of a universal file.
 pub(super) fn read(path: &Path) -> Result<ModalModel, StructureError> {
-    let file = File::open(path).map_err(|source| {
+    let file = inputs::open(path).map_err(|source| {
         Box::new(FrfError::Read {
             path: path.to_owned(),
             source,

@@ -269,3 +269,16 @@ def test_what_is_wrong_is_told(run, tmp_path, beams, change, told):
     done = run("respond", path, "-o", tmp_path / "out.csv", expect=1)
     assert told in done.stderr
     assert not (tmp_path / "out.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("course", "told"),
+    [
+        (history(0.01, 1e-4, 2600.0), "`response.loads.push.frequency`: found 2600, expected at most 2500 Hz"),
+        (history(0.01, 0.02, 10.0), "`response.step`: found 0.02, expected no more than response.duration, 0.01 s"),
+        (history(0.01, 1e-4, 10.0).replace(" }", ", until = -3 }"), "`response.loads.push.until`: found -3, expected a time in s"),
+    ],
+)
+def test_loads_that_rows_cannot_show_are_refused(run, tmp_path, beams, course, told):
+    done = run("respond", write(tmp_path, beams, course), "-o", tmp_path / "out.csv", expect=1)
+    assert told in done.stderr, done.stderr

@@ -19,6 +19,8 @@ const HARMONICS: usize = 7;
 const MOST_HARMONICS: usize = 99;
 /// More steps than anybody waits for.
 const MOST_STEPS: f64 = 1e7;
+/// Rows in a period of a load, at least.
+const LEAST_ROWS_A_PERIOD: f64 = 4.0;
 
 /// Frequencies, evenly spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -299,6 +301,12 @@ impl Response {
             step_s,
             format_args!("at most {MOST_STEPS:.0e} steps in {duration_s} s"),
         )?;
+        text.ensure(
+            step_s <= duration_s,
+            "response.step",
+            step_s,
+            format_args!("no more than response.duration, {duration_s} s"),
+        )?;
         let mut loads = vec![None; inputs.len()];
         for (name, load) in table.loads {
             let (key, place) = load_place(text, &name, inputs)?;
@@ -320,6 +328,20 @@ impl Response {
                     frequency,
                     "a frequency in Hz",
                 )?;
+                // between rows loads are straight: less than four rows a period are no sine
+                let highest = 1.0 / (LEAST_ROWS_A_PERIOD * step_s);
+                text.ensure(
+                    frequency <= highest,
+                    format_args!("{key}.frequency"),
+                    frequency,
+                    format_args!(
+                        "at most {highest} Hz, which has {LEAST_ROWS_A_PERIOD} rows of response.step = {step_s} s in a period; \
+                         make the step shorter"
+                    ),
+                )?;
+            }
+            if let Some(until) = load.until {
+                text.positive(format_args!("{key}.until"), until, "a time in s")?;
             }
             loads[place] = Some(LoadCourse {
                 amplitude: load.amplitude,

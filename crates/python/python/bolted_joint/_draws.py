@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._command import BoltedJointError, run
+from ._command import BoltedJointError, in_page, run
 from ._html import table
 from ._identify import Identification, found_in
 from ._joint import Joint
@@ -102,13 +102,13 @@ def draw(study: AnyStudy, numbers: range, *, bootstrap: int | None = None, seed:
     """
     if numbers.step != 1 or len(numbers) == 0:
         raise BoltedJointError(f"numbers: found {numbers!r}, expected a range such as range(0, 1000)")
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output = Path(folder, "part.draws.json")
-        arguments = [command_of(path, hidden), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
+        arguments = [command_of(path, shown), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
         for option, value in [("--bootstrap", bootstrap), ("--seed", seed)]:
             if value is not None:
                 arguments += [option, str(value)]
-        run(arguments, hidden)
+        run(arguments, shown | {folder + os.sep: ""})
         return Draws.read(output)
 
 
@@ -141,8 +141,8 @@ def merge(
     BoltedJointError
         If a part does not belong to the study or to the others, or if draws are there twice or not at all.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
-        command, files = command_of(path, hidden), []
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        command, files = command_of(path, shown), []
         for number, part in enumerate(parts):
             if isinstance(part, Draws):
                 file = Path(folder, f"part-{number + 1}.draws.json")
@@ -156,8 +156,9 @@ def merge(
             arguments += ["--no-rivals"]
         if report:
             arguments += ["--report", str(page)]
-        details: dict[str, Any] = run(arguments, hidden)
-        html = page.read_text(encoding="utf-8") if report else ""
+        shown |= {str(output): "the joint", folder + os.sep: ""}
+        details: dict[str, Any] = run(arguments, shown)
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
         if command == "identify":
             return found_in(Path(folder), "merged", study, details, html)
         return Prediction(Joint.read(output), details, html)

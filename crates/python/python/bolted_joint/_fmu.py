@@ -94,12 +94,14 @@ def export(
         If the joint cannot be exported.
     """
     with contextlib.ExitStack() as stack:
-        hidden = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-")) + os.sep
+        shown: dict[str, str] = {}
         if isinstance(joint, Joint):
-            given = os.path.join(hidden, "given.joint.json")
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-"))
+            given = os.path.join(folder, "given.joint.json")
             joint.save(given)
+            shown = {given: joint.name}
         elif isinstance(joint, Study):
-            given, hidden = stack.enter_context(as_file(joint))
+            given, shown = stack.enter_context(as_file(joint))
         else:
             given = path_of(joint)
         arguments = ["export", given, "-o", path_of(path), "--fmi", str(fmi)]
@@ -120,7 +122,7 @@ def export(
         ]:
             if asked:
                 arguments.append(option)
-        return Fmu(Path(path), run(arguments, hidden))
+        return Fmu(Path(path), run(arguments, shown))
 
 
 class Checked:
@@ -130,6 +132,10 @@ class Checked:
     ----------
     sound : bool
         Whether nothing is wrong.
+    usable : bool
+        Whether the joint may be relied on; `reasons_against` says why not.
+    reasons_against : tuple of str
+        Why the joint is not to be relied on.
     facts, findings : tuple of str
         What it is, and what is wrong with it.
     details : dict
@@ -139,14 +145,19 @@ class Checked:
     def __init__(self, details: dict[str, Any]):
         self.details = details
         self.sound = bool(details["sound"])
+        self.usable = bool(details.get("usable", True))
+        self.reasons_against: tuple[str, ...] = tuple(details.get("reasons_against", ()))
         self.facts: tuple[str, ...] = tuple(details["facts"])
         self.findings: tuple[str, ...] = tuple(details["findings"])
 
     def __repr__(self) -> str:
-        return f"<Checked: {'sound' if self.sound else '; '.join(self.findings)}>"
+        against = "".join(f"; not to be relied on: {reason}" for reason in self.reasons_against)
+        return f"<Checked: {'sound' if self.sound else '; '.join(self.findings)}{against}>"
 
     def _repr_html_(self) -> str:
-        rows = [("wrong", finding) for finding in self.findings] + [("", fact) for fact in self.facts]
+        rows = [("wrong", finding) for finding in self.findings]
+        rows += [("not to be relied on", reason) for reason in self.reasons_against]
+        rows += [("", fact) for fact in self.facts]
         return table("sound" if self.sound else "not sound", ("", ""), rows)
 
 
@@ -160,18 +171,30 @@ def check(what: Joint | Fmu | str | os.PathLike[str], *, run_library: bool = Tru
     run_library : bool
         Whether the FMU's library is run.
 
+    Returns
+    -------
+    Checked
+        What is wrong with it stands in `Checked.findings`, and `Checked.sound` is then false.
+
     Raises
     ------
     BoltedJointError
-        If something is wrong with it: the message has the findings.
+        If it cannot be read.
+
+    Warns
+    -----
+    NotUsableWarning
+        If the joint is not to be relied on.
     """
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        shown = {}
         if isinstance(what, Joint):
             path = str(Path(folder, "given.joint.json"))
             what.save(path)
+            shown[path] = what.name
         else:
             path = path_of(what)
-        return Checked(run(["check", path, *([] if run_library else ["--no-run"])]))
+        return Checked(run(["check", path, *([] if run_library else ["--no-run"])], shown, may_find=True))
 
 
 __all__ = ["BoltedJointError", "Checked", "Fmu", "check", "export"]

@@ -1,18 +1,18 @@
 """`identify`: a study becomes a joint."""
 
+import os
 import tempfile
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._command import NotUsableWarning, run
+from ._command import NotUsableWarning, in_page, run
 from ._functions import Functions
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints
-from ._respond import respond
+from ._respond import answered
 from ._study import AnyStudy, as_file, tables_of
 
 if TYPE_CHECKING:
@@ -89,17 +89,15 @@ class Identification:
             If no functions were measured, as for laps.
         """
         study = with_joints(self._study, self.joints, assembly)
-        with warnings.catch_warnings():
-            # `identify` has told it
-            warnings.simplefilter("ignore", NotUsableWarning)
-            if study["method"] == "frf-space":
-                if step_hz is None and not any("frf" in part for part in study.values() if isinstance(part, Mapping)):
-                    # nothing else says where the lines are
-                    step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
-                response = respond(study, step_hz=step_hz)
-                assert isinstance(response, Functions)
-                return response
-            return respond(study, self.joints, step_hz=step_hz)
+        joints = None if study["method"] == "frf-space" else self.joints
+        has_lines = joints is not None or any("frf" in part for part in study.values() if isinstance(part, Mapping))
+        if step_hz is None and not has_lines:
+            # nothing else says where the lines are
+            step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
+        # that the result is not to be relied on `identify` has told
+        response = answered(study, joints, step_hz=step_hz, quiet=NotUsableWarning)
+        assert isinstance(response, Functions)
+        return response
 
     def plot(self, assembly: int = 0, **options: Any) -> "Figure":
         """Draws what was measured and what the identified joint makes of it.
@@ -163,7 +161,7 @@ def identify(
     NotUsableWarning
         If the result is not to be relied on.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
         if bootstrap is not None:
@@ -174,8 +172,9 @@ def identify(
             arguments += ["--no-rivals"]
         if report:
             arguments += ["--report", str(page)]
-        details = run(arguments, hidden)
-        html = page.read_text(encoding="utf-8") if report else ""
+        shown |= {str(output): "the joint", folder + os.sep: ""}
+        details = run(arguments, shown)
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
         return found_in(Path(folder), "identified", study, details, html)
 
 

@@ -4,7 +4,6 @@ import copy
 import json
 import os
 import tempfile
-import warnings
 import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -113,11 +112,9 @@ class Joint:
         with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
             given, fmu = Path(folder, "given.joint.json"), Path(folder, "frozen.fmu")
             self.save(given)
-            with warnings.catch_warnings():
-                # what is wrong with the joint is told where it is used
-                warnings.simplefilter("ignore")
-                arguments = ["export", str(given), "-o", str(fmu), "--preload", repr(preload)]
-                run([*arguments, "--allow-active", "--unusable"], folder + os.sep)
+            arguments = ["export", str(given), "-o", str(fmu), "--preload", repr(preload)]
+            # what is wrong with the joint is told where it is used
+            run([*arguments, "--allow-active", "--unusable"], {str(given): self.name}, quiet=Warning)
             with zipfile.ZipFile(fmu) as archive:
                 return Joint(json.loads(archive.read("resources/joint.json")))
 

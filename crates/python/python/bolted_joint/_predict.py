@@ -1,10 +1,11 @@
 """`predict`: a joint from surfaces, materials and bolts."""
 
+import os
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._command import run
+from ._command import in_page, run
 from ._joint import Joint
 from ._respond import Response, respond
 from ._study import AnyStudy, as_file
@@ -92,10 +93,12 @@ def predict(study: AnyStudy, *, report: bool = False) -> Prediction:
     BoltedJointError
         If the study or its files cannot be used.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "predicted.joint.json"), Path(folder, "report.html")
         arguments = ["predict", path, "-o", str(output)]
         if report:
             arguments += ["--report", str(page)]
-        details = run(arguments, hidden)
-        return Prediction(Joint.read(output), details, page.read_text(encoding="utf-8") if report else "")
+        shown |= {str(output): "the joint", folder + os.sep: ""}
+        details = run(arguments, shown)
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        return Prediction(Joint.read(output), details, html)

@@ -86,8 +86,9 @@ def together(
     averages: float | None = None,
     units: Mapping[str, str] | None = None,
     coherence: Sequence[str | os.PathLike[str]] = (),
+    is_quiet: bool = False,
 ) -> Functions:
-    """As `read`, of files and of functions that are arrays already."""
+    """As `read`, of files and of functions that are arrays already; of units that are not stated it may be quiet."""
     factors = None if units is None else _unit_factors(units)
     curves: list[_Curve] = []
     coherences: list[_Curve] = []
@@ -97,7 +98,7 @@ def together(
             found = _curves_of(source, quantity, factors)
         else:
             found = _curves(source, quantity, averages, factors)
-            if not found.units_are_stated:
+            if not (found.units_are_stated or is_quiet):
                 message = f"{os.fspath(source)}: the file states no units; SI is assumed"
                 warnings.warn(message, stacklevel=3)
             if not found.functions:
@@ -169,9 +170,7 @@ def _curves_of(functions: Functions, quantity: str | None, units: tuple[float, f
 
 def _stated_units(source: str | os.PathLike[str], path: str | os.PathLike[str]) -> tuple[float, float]:
     """SI units in the length and the force that a file states, where it states one of each."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        told: list[str] = run(["show", path_of(source)])[0]["facts"]["units"]
+    told: list[str] = run(["show", path_of(source)], quiet=Warning)[0]["facts"]["units"]
     statements = [one for one in told if not one.startswith("understood as ")]
     lengths, forces = set(), set()
     for statement in statements:

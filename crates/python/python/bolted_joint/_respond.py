@@ -15,7 +15,7 @@ from ._command import BoltedJointError, path_of, run
 from ._functions import Functions
 from ._html import table
 from ._joint import Joint
-from ._read import read
+from ._read import together
 from ._study import AnyStudy, as_file
 
 if TYPE_CHECKING:
@@ -259,7 +259,41 @@ def respond(
     BoltedJointError
         If study or joint cannot be used.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    return answered(
+        study,
+        joint,
+        step_hz=step_hz,
+        noise=noise,
+        noise_level=noise_level,
+        noise_samples=noise_samples,
+        seed=seed,
+        deviations=deviations,
+        report=report,
+        plan=plan,
+        add=add,
+        wanted=wanted,
+    )
+
+
+def answered(
+    study: AnyStudy,
+    joint: AnyJoint | None = None,
+    *,
+    step_hz: float | None = None,
+    noise: str | None = None,
+    noise_level: float = 0.01,
+    noise_samples: int = 4096,
+    seed: int = 1,
+    deviations: bool = False,
+    report: str | os.PathLike[str] | None = None,
+    plan: bool = False,
+    add: int | None = None,
+    wanted: Sequence[str] = (),
+    quiet: type[Warning] | None = None,
+) -> Functions | Response | Plan:
+    """As `respond`, which the user calls, without warnings of one type."""
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        shown[folder + os.sep] = ""
         output, beside = Path(folder, "responses.csv"), Path(folder, "deviations.csv")
         arguments = ["respond", path]
         if plan:
@@ -267,7 +301,7 @@ def respond(
         else:
             arguments += ["-o", str(output)]
         if joint is not None:
-            arguments += ["--joint", _joint_file(joint, Path(folder))]
+            arguments += ["--joint", _joint_file(joint, Path(folder), shown)]
         if step_hz is not None:
             arguments += ["--step", repr(float(step_hz))]
         if deviations:
@@ -281,18 +315,18 @@ def respond(
         if noise is not None:
             arguments += ["noise", noise, "--level", repr(float(noise_level))]
             arguments += ["--samples", str(noise_samples), "--seed", str(seed)]
-        details: dict[str, Any] = run(arguments, hidden)
+        details: dict[str, Any] = run(arguments, shown, quiet=quiet, stacklevel=4)
         if plan:
             return Plan(details)
         if "functions" not in details:
             return Response.of_table(output, details)
-        functions = read(output)
+        functions = together([output])
         if deviations:
             functions.magnitude_deviation = _beside(functions, Response.of_table(beside, details))
         return functions
 
 
-def _joint_file(joint: AnyJoint, folder: Path) -> str:
+def _joint_file(joint: AnyJoint, folder: Path, shown: dict[str, str]) -> str:
     """The file of a joint, or the name that those of several bolts have in common."""
     if isinstance(joint, str | os.PathLike):
         return path_of(joint)
@@ -301,8 +335,15 @@ def _joint_file(joint: AnyJoint, folder: Path) -> str:
         raise BoltedJointError(
             f"joint: found {type(joint).__name__}, expected a Joint, its file, or a dictionary with that of each bolt"
         )
+    names = {}
     for bolt, one in joints.items():
-        one.save(folder / f"given{'.' if bolt else ''}{bolt}.joint.json")
+        file = folder / f"given{'.' if bolt else ''}{bolt}.joint.json"
+        one.save(file)
+        names[str(file)] = one.name
+    others = dict(shown)
+    shown.clear()
+    # a joint's name stands before the folder that its file is in
+    shown.update(names | others)
     return str(folder / "given.joint.json")
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._command import BoltedJointError, path_of, run
+from ._command import BoltedJointError, in_page, path_of, run
 from ._functions import Functions
 from ._html import table
 from ._joint import Joint
@@ -90,9 +90,9 @@ def show(what: Shown, *, page: bool = False) -> Look:
             path = path_of(what)
         drawing = Path(folder, "page.html")
         arguments = ["show", path, *(["--plot", str(drawing)] if page else [])]
-        data = run(arguments, folder + os.sep)[0]
-        data["file"] = data["file"].replace(folder + os.sep, "")
-        return Look(data, drawing.read_text(encoding="utf-8") if page else "")
+        shown = {folder + os.sep: ""}
+        data = run(arguments, shown)[0]
+        return Look(data, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
 
 
 class Comparison:
@@ -193,9 +193,11 @@ def compare(
             arguments += ["--preload", repr(float(preload_n_m))]
         if page:
             arguments += ["--plot", str(drawing)]
-        details = run(arguments, folder + os.sep)
         names = [joint.name if isinstance(joint, Joint) else os.fspath(joint) for joint in joints]
-        return Comparison(names, details, drawing.read_text(encoding="utf-8") if page else "")
+        shown = {path: name for path, name, joint in zip(paths, names, joints, strict=True) if isinstance(joint, Joint)}
+        shown[folder + os.sep] = ""
+        details = run(arguments, shown)
+        return Comparison(names, details, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
 
 
 def convert(
@@ -249,7 +251,7 @@ def convert(
             arguments += ["--preload", repr(float(preload_n_m))]
         if at_rest:
             arguments += ["--at-rest"]
-        run(arguments, folder + os.sep)
+        run(arguments, {given: joint.name if isinstance(joint, Joint) else given})
     return Path(path)
 
 

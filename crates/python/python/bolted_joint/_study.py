@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._command import BoltedJointError, path_of
+from ._command import BoltedJointError, in_words, path_of
 from ._functions import Functions
 from ._joint import Joint
 from ._values import single, within
@@ -79,13 +79,13 @@ def tables_of(study: AnyStudy) -> Study:
 
 
 @contextlib.contextmanager
-def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
-    """The path of a study's file while the context lasts, and what of it messages need not show.
+def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
+    """The path of a study's file while the context lasts, and what messages show in place of its folder.
 
     Where the study is a dictionary, files are made for the time.
     """
     if not isinstance(study, Mapping):
-        yield path_of(study), ""
+        yield path_of(study), {}
         return
     folder = study.folder if isinstance(study, Study) else Path.cwd()
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
@@ -98,15 +98,15 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
             raise BoltedJointError(str(error)) from error
         path = Path(temporary, "study.toml")
         path.write_text(text, encoding="utf-8")
-        yield str(path), temporary + os.sep
+        yield str(path), {temporary + os.sep: ""}
 
 
-def command_of(path: str, hidden: str) -> str:
+def command_of(path: str, shown: Mapping[str, str]) -> str:
     """The command that a study's file is for."""
     try:
         return _native.command_of(path)
     except ValueError as error:
-        raise BoltedJointError(str(error).replace(hidden, "") if hidden else str(error)) from error
+        raise BoltedJointError(in_words(str(error), shown)) from error
 
 
 class _Tables:

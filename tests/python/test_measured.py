@@ -34,6 +34,40 @@ def close(found, expected):
     np.testing.assert_allclose(found.values, expected.values, rtol=1e-12)
 
 
+def test_what_was_identified_stays_what_it_was(short, tmp_path, monkeypatch):
+    whole = short["assembly"]["frf"]
+    values = 1.0 * whole.values
+    given = with_values(whole, values)
+    values *= 2.0
+    short["assembly"]["frf"] = given
+    found = bolted_joint.identify(short)
+    short["assembly"]["frf"] = with_values(whole, 3.0 * whole.values)
+    short["joint"]["model"] = "diagonal"
+    with pytest.warns(UserWarning, match="not identified"):
+        other = bolted_joint.identify(short)
+    assert other.joint.data["joint"] != found.joint.data["joint"]
+    close(found.measured(), whole)
+    regenerated = found.regenerated(5)
+    # a dictionary whose paths are relative to the current folder
+    whole.save(tmp_path / "assembly.csv")
+    monkeypatch.chdir(tmp_path)
+    tables = {**dict(short), "assembly": {**short["assembly"], "frf": "assembly.csv"}}
+    tables["a"] = {**short["a"], "modal": short.folder / short["a"]["modal"]}
+    tables["joint"] = {**short["joint"], "model": "full"}
+    of_path = bolted_joint.identify(tables)
+    monkeypatch.chdir(tmp_path.parent)
+    close(of_path.measured(), whole)
+    np.testing.assert_allclose(of_path.regenerated(5).values, regenerated.values, rtol=1e-9)
+    assert of_path.plot().axes[0].lines
+
+
+def test_copies_of_a_study_keep_its_folder(short):
+    for other in (short.copy(), short | {"name": "other"}, {"name": "other"} | short, bolted_joint.Study(short)):
+        assert isinstance(other, bolted_joint.Study) and other.folder == short.folder
+    assert (short | {"name": "other"})["name"] == "other" and ({"name": "other"} | short)["name"] == short["name"]
+    assert bolted_joint.identify(short.copy()).usable
+
+
 @pytest.mark.parametrize("kind", ["paths", "functions", "both"])
 def test_functions_in_several_files_are_one_measurement(short, tmp_path, kind):
     whole = short["assembly"]["frf"]

@@ -3,7 +3,7 @@
 import json
 import os
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from ._html import table
 from ._identify import Identification, found_in
 from ._joint import Joint
 from ._predict import Prediction
-from ._study import AnyStudy, as_file, command_of
+from ._study import AnyStudy, as_file, command_of, settled
 
 
 class Draws:
@@ -141,7 +141,10 @@ def merge(
     BoltedJointError
         If a part does not belong to the study or to the others, or if draws are there twice or not at all.
     """
-    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    # results tell of the study as it was
+    known = settled(study)
+    given = known if isinstance(study, Mapping) else study
+    with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         command, files = command_of(path, shown), []
         for number, part in enumerate(parts):
             if isinstance(part, Draws):
@@ -160,5 +163,5 @@ def merge(
         details: dict[str, Any] = run(arguments, shown)
         html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
         if command == "identify":
-            return found_in(Path(folder), "merged", study, details, html)
+            return found_in(Path(folder), "merged", known, details, html)
         return Prediction(Joint.read(output), details, html)

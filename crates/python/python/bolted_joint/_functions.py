@@ -19,6 +19,8 @@ _QUANTITIES = ("receptance", "mobility", "accelerance")
 class Functions:
     """Frequency response functions of one structure, on one frequency axis.
 
+    Arrays are copied. What is made of functions takes it that they are not changed afterwards.
+
     Parameters
     ----------
     frequency_hz : array of shape (F,)
@@ -60,7 +62,7 @@ class Functions:
         coherence: ArrayLike | None = None,
         averages: float | None = None,
     ):
-        self.frequency_hz: NDArray[np.float64] = np.asarray(frequency_hz, dtype=np.float64)
+        self.frequency_hz: NDArray[np.float64] = np.array(frequency_hz, dtype=np.float64)
         self.responses: tuple[str, ...] = _names("responses", responses)
         self.references: tuple[str, ...] = _names("references", references)
         _known_quantity(quantity)
@@ -70,9 +72,9 @@ class Functions:
                 f"frequency_hz: found an array of shape {self.frequency_hz.shape}, expected one axis"
             )
         shape = (len(self.frequency_hz), len(self.responses), len(self.references))
-        self.values: NDArray[np.complex128] = _shaped("values", np.asarray(values, dtype=np.complex128), shape)
+        self.values: NDArray[np.complex128] = _shaped("values", np.array(values, dtype=np.complex128), shape)
         self.coherence: NDArray[np.float64] | None = (
-            None if coherence is None else _shaped("coherence", np.asarray(coherence, dtype=np.float64), shape)
+            None if coherence is None else _shaped("coherence", np.array(coherence, dtype=np.float64), shape)
         )
         self.averages = averages
         self.magnitude_deviation: NDArray[np.float64] | None = None

@@ -13,7 +13,7 @@ from ._functions import Functions
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints
 from ._respond import answered
-from ._study import AnyStudy, as_file, tables_of
+from ._study import AnyStudy, Study, as_file, settled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +36,7 @@ class Identification:
         The report: one page with everything that was measured, assumed and found. Empty where none was asked for.
     """
 
-    def __init__(self, study: AnyStudy, joints: dict[str, Joint], details: dict[str, Any], report_html: str):
+    def __init__(self, study: Study, joints: dict[str, Joint], details: dict[str, Any], report_html: str):
         self._study = study
         self.joints = joints
         self.details = details
@@ -107,12 +107,12 @@ class Identification:
         """
         from . import _plot
 
-        method = tables_of(self._study)["method"]
+        method = self._study["method"]
         if method == "lap-update":
             return _plot.frequencies(self.details["torques"])
         if method == "lap-response":
             return _plot.runs(self.details["backbones"], self.details["predictions"])
-        of = f", assembly {assembly}" if len(assemblies(tables_of(self._study))) > 1 else ""
+        of = f", assembly {assembly}" if len(assemblies(self._study)) > 1 else ""
         sets = {f"measured{of}": self.measured(assembly), f"identified{of}": self.regenerated(assembly=assembly)}
         return _plot.functions(sets, **options)
 
@@ -161,7 +161,9 @@ def identify(
     NotUsableWarning
         If the result is not to be relied on.
     """
-    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    # results tell of the study as it was
+    known = settled(study)
+    with as_file(known if isinstance(study, Mapping) else study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
         if bootstrap is not None:
@@ -175,10 +177,10 @@ def identify(
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details = run(arguments, shown)
         html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
-        return found_in(Path(folder), "identified", study, details, html)
+        return found_in(Path(folder), "identified", known, details, html)
 
 
-def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str) -> Identification:
+def found_in(folder: Path, stem: str, study: Study, details: dict[str, Any], html: str) -> Identification:
     """The joint files that a command has written into a folder, as `stem`.joint.json or `stem`.BOLT.joint.json."""
     joints = {
         file.name.removeprefix(stem).removesuffix("joint.json").strip("."): Joint.read(file)

@@ -1,6 +1,7 @@
 """Studies as dictionaries, with arrays where a file would have paths."""
 
 import contextlib
+import copy
 import json
 import os
 import tempfile
@@ -30,7 +31,8 @@ class Study(dict[str, Any]):
     tables : mapping, optional
         The study's tables, as its TOML has them.
     folder : path, optional
-        What paths in it are relative to; the current folder if it is left out.
+        What paths in it are relative to; if it is left out, that of the tables where they are a study, else the
+        current folder.
 
     Examples
     --------
@@ -39,9 +41,26 @@ class Study(dict[str, Any]):
     >>> identify(study).joint.stiffness
     """
 
-    def __init__(self, tables: Mapping[str, Any] = {}, folder: str | os.PathLike[str] = "."):
+    #: What paths are relative to.
+    folder: Path
+
+    def __init__(self, tables: Mapping[str, Any] = {}, folder: str | os.PathLike[str] | None = None):
         super().__init__(tables)
+        if folder is None:
+            folder = tables.folder if isinstance(tables, Study) else "."
         self.folder = Path(folder).resolve()
+
+    def copy(self) -> "Study":
+        """The same tables in a study of its own, with the same folder; tables within tables are shared."""
+        return Study(self)
+
+    def __or__(self, other: Any) -> Any:
+        """These tables with those of `other` in their place, in the folder of this study."""
+        return Study({**self, **other}, self.folder) if isinstance(other, Mapping) else NotImplemented
+
+    def __ror__(self, other: Any) -> Any:
+        """The tables of `other` with these in their place, in the folder of this study."""
+        return Study({**other, **self}, self.folder) if isinstance(other, Mapping) else NotImplemented
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Study":
@@ -73,9 +92,24 @@ AnyStudy = str | os.PathLike[str] | Mapping[str, Any]
 
 def tables_of(study: AnyStudy) -> Study:
     """A study's tables as a dictionary of its own, with the folder that its paths are relative to."""
-    if isinstance(study, Mapping):
-        return Study(study, study.folder if isinstance(study, Study) else ".")
-    return Study.read(study)
+    return Study(study) if isinstance(study, Mapping) else Study.read(study)
+
+
+def settled(study: AnyStudy) -> Study:
+    """A study as it is now: whatever is done to the one that was given, or to the current folder, it stays the same."""
+    tables = tables_of(study)
+    return Study(_copied(tables), tables.folder)
+
+
+def _copied(value: Any) -> Any:
+    """A value with dictionaries, lists, arrays and joints of its own; functions are not changed once they are made."""
+    if isinstance(value, Mapping):
+        return {name: _copied(inner) for name, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_copied(inner) for inner in value]
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    return Joint(copy.deepcopy(value.data)) if isinstance(value, Joint) else value
 
 
 @contextlib.contextmanager
@@ -87,7 +121,7 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
     if not isinstance(study, Mapping):
         yield path_of(study), {}
         return
-    folder = study.folder if isinstance(study, Study) else Path.cwd()
+    folder = Study(study).folder
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
         # a study of a joint in space has no such key
         has_units = study.get("method") != "frf-space"

@@ -90,7 +90,12 @@ def test_a_study_in_millimetres_is_measured_in_metres(short, tmp_path):
     short["assembly"] |= {"frf": tmp_path / "millimetres.csv", "units": MILLIMETRES}
     of_file = bolted_joint.identify(short)
     close(of_file.measured(), whole)
+    # arrays are in SI units
     short["assembly"]["frf"] = with_values(whole, 1e3 * whole.values)
+    said = r'study\["assembly"\]\["units"\]: found .*mm.* beside Functions in study\["assembly"\]\["frf"\], .* in SI'
+    with pytest.raises(BoltedJointError, match=said):
+        bolted_joint.identify(short)
+    short["assembly"] |= {"frf": [whole], "units": {"length": "m", "force": "N"}, "quantity": "receptance"}
     of_arrays = bolted_joint.identify(short)
     close(of_arrays.measured(), whole)
     np.testing.assert_allclose(of_arrays.joint.stiffness, of_file.joint.stiffness, rtol=1e-9)
@@ -113,9 +118,12 @@ def test_accelerance_is_drawn_as_the_receptance_that_it_is(short):
     assert above.get_ylabel() == "receptance, SI"
     curves = {line.get_label(): line.get_ydata() for line in above.lines}
     np.testing.assert_allclose(curves["13:+Y/13:+Y measured"], np.abs(whole["13:+Y", "13:+Y"]), rtol=1e-12)
-    # the study has the last word of what its functions are
-    short["assembly"] |= {"frf": with_values(whole, accelerance.values), "quantity": "accelerance"}
+    short["assembly"] |= {"quantity": "accelerance"}
     close(bolted_joint.identify(short).measured(), whole)
+    # a study and its functions do not contradict each other
+    short["assembly"]["frf"] = with_values(whole, accelerance.values)
+    with pytest.raises(BoltedJointError, match="found 'accelerance' beside Functions .* is 'receptance'; leave"):
+        bolted_joint.identify(short)
 
 
 def test_each_of_several_assemblies_is_measured_and_regenerated_at_its_torque(short):

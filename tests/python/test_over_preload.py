@@ -82,6 +82,27 @@ def test_draws_scatter_at_all_preloads_as_the_covariance_says(predicted):
         Joint.read(TABLE).draw(rng)
 
 
+@pytest.mark.filterwarnings("error")
+def test_friction_is_shown_at_each_preload():
+    pytest.importorskip("matplotlib").use("Agg")
+    study = bolted_joint.Study.read(ROOT / "examples/predict-microslip/over-torque.toml")
+    study["uncertainty"] = {"draws": 20}
+    predicted = bolted_joint.predict(study)
+    html = predicted._repr_html_()
+    laws = predicted.joint.data["joint"]["over_preload"]["friction"]
+    for preload, (law,) in zip(predicted.joint.preloads, laws, strict=True):
+        assert f"<td>{preload:g}</td><td>y, iwan</td><td>slip_force {law['slip_force']:.6g}" in html
+    for figure in (predicted.plot(), predicted.joint.plot()):
+        (axes,) = figure.axes
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("relative.y, m", "load, N")
+        highest = {line.get_label(): np.abs(line.get_ydata()).max() for line in axes.lines}
+        # at twice the displacement that the spring would have, all slips
+        found = [max(load for name, load in highest.items() if f"at {preload:g} N·m" in name) for preload in (10, 20, 40)]
+        np.testing.assert_allclose(found, [law["slip_force"] for (law,) in laws], rtol=1e-2)
+    with pytest.raises(BoltedJointError, match="whose uncertainty is not in the covariance"):
+        predicted.joint.draw(np.random.default_rng(1))
+
+
 def test_it_is_drawn_at_its_preloads_or_at_one(predicted):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

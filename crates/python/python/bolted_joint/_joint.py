@@ -191,10 +191,23 @@ class Joint:
         Raises
         ------
         BoltedJointError
-            If the file has no covariance.
+            If the file has no covariance, or one of zeros, as that of a joint with friction alone.
         """
         covariance = self.covariance
         places = self._places()
+        if covariance is None or not covariance.any():
+            found = "no covariance" if covariance is None else "a covariance of zeros"
+            laws = [law["law"] for _, law in self._friction()]
+            if laws:
+                raise BoltedJointError(
+                    f"{self.name}: found {found} of the entries of K and C, and friction ({', '.join(dict.fromkeys(laws))}), "
+                    "whose uncertainty is not in the covariance; expected one to draw from; draw the parameters of the "
+                    "friction from what is known of them, and set them in data"
+                )
+            if covariance is not None:
+                raise BoltedJointError(
+                    f"{self.name}: found a covariance of zeros, expected one to draw from: each draw would be the joint"
+                )
         if covariance is None or places is None:
             at = " at all preloads" if self.preloads else ""
             raise BoltedJointError(
@@ -211,9 +224,18 @@ class Joint:
         return Joint(data)
 
     def plot(self, **options: Any) -> "Figure":
-        """Draws K + iωC over frequency, over the preload at each of its `preloads`; see `bolted_joint._plot.joints`."""
+        """Draws K + iωC over frequency, over the preload at each of its `preloads`; see `bolted_joint._plot.joints`.
+
+        Of a joint that has friction alone loops of load over displacement are drawn.
+        """
         from . import _plot
 
+        if not options and self._has_friction_alone():
+            from ._loops import loops_of
+
+            loops = loops_of(self)
+            if loops is not None:
+                return _plot.response(loops, "load")
         return _plot.joints([self], **options)
 
     def __repr__(self) -> str:
@@ -223,12 +245,16 @@ class Joint:
     def _repr_html_(self) -> str:
         against = "".join(f"; not to be relied on: {reason}" for reason in self.reasons_against)
         if not self.preloads:
-            rows = self._rows(None) + self._laws()
+            rows = self._rows(None) + [row for _, row in self._laws()]
             return table(self.name + against, ("entry", "K", "C"), rows)
         over = f"; over the preload, nominally {self.nominal_preload:g} N·m"
+        laws = self._laws()
         rows = [
-            (f"{preload:g}", *row) for entry, preload in enumerate(self.preloads) for row in self._rows(entry)
+            (f"{preload:g}", *row)
+            for entry, preload in enumerate(self.preloads)
+            for row in [*self._rows(entry), *(row for at, row in laws if at == entry)]
         ]
+        rows += [(f"{self.nominal_preload:g}", *row) for at, row in laws if at is None]
         return table(self.name + over + against, ("preload, N·m", "entry", "K", "C"), rows)
 
     def _rows(self, entry: int | None) -> list[tuple[str, ...]]:
@@ -246,16 +272,30 @@ class Joint:
                 shown.append((f"{first}, {second}", *cells))
         return shown
 
-    def _laws(self) -> list[tuple[str, ...]]:
-        """Laws that remember, which stand beside K and C."""
-        laws = self.data["joint"].get("friction", [])
+    def _friction(self) -> list[tuple[int | None, dict[str, Any]]]:
+        """Laws that remember, which stand beside K and C, each with its place in the table of preloads if there is one."""
+        tables = self._table().get("friction") or ()
+        over: list[tuple[int | None, dict[str, Any]]] = [(entry, law) for entry, laws in enumerate(tables) for law in laws]
+        # beside a table of preloads these are stated at the nominal one
+        return over or [(None, law) for law in self.data["joint"].get("friction") or ()]
+
+    def _has_friction_alone(self) -> bool:
+        """Whether K and C are zero and laws that remember are all that there is."""
+        of = self._table() or self.data["joint"]
+        return bool(self._friction()) and not any(np.any(of.get(matrix, 0.0)) for matrix in _MATRICES)
+
+    def _laws(self) -> list[tuple[int | None, tuple[str, ...]]]:
+        """Rows of the laws that remember, with their places in the table of preloads."""
         return [
             (
-                f"{law['dof']}, {law['law']}",
-                "; ".join(f"{key} {value:.6g}" for key, value in law.items() if key not in ("dof", "law")),
-                "",
+                entry,
+                (
+                    f"{law['dof']}, {law['law']}",
+                    "; ".join(f"{key} {_short(value)}" for key, value in law.items() if key not in ("dof", "law")),
+                    "",
+                ),
             )
-            for law in laws
+            for entry, law in self._friction()
         ]
 
     def _table(self) -> dict[str, Any]:
@@ -312,6 +352,10 @@ class Joint:
                             names[name + ending] = (matrix, entry, row, column)
         places = [names.get(name) for name in self.unknowns]
         return None if None in places else places  # type: ignore[return-value]
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, int | float) else str(value)
 
 
 def _listed(preloads: tuple[float, ...]) -> str:

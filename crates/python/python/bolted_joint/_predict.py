@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from ._command import in_page, run
 from ._joint import Joint
-from ._respond import Response, respond
+from ._loops import loops_of
 from ._study import AnyStudy, as_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-#: Amplitudes of the loops of a joint that slips, in parts of that at which its spring alone has the slip force.
-_LOOPS = (0.5, 1.0, 2.0)
 
 
 class Prediction:
@@ -39,33 +36,17 @@ class Prediction:
         """Draws what was predicted.
 
         Of a layered beam that is damping over the amplitude; of an interface that slips, loops of load over
-        displacement; else K + iωC over frequency, at each preload of a joint over the preload (see
+        displacement, at each preload of a joint over the preload; else K + iωC over frequency, at each preload of a joint over the preload (see
         `bolted_joint._plot.joints` for `options`).
         """
         from . import _plot
 
         if "result" in self.details:
             return _plot.damping_over_amplitude(self.details["result"], **options)
-        laws = self.joint.data["joint"].get("friction", [])
-        if laws and not self.joint.preloads:
-            return _plot.response(self._loops(laws[0]), "load", f"relative.{laws[0]['dof']}", **options)
+        loops = loops_of(self.joint)
+        if loops is not None:
+            return _plot.response(loops, "load", **options)
         return self.joint.plot(**options)
-
-    def _loops(self, law: dict[str, Any]) -> Response:
-        slip = law["slip_force"] / law["stiffness"]
-        motion = f"relative.{law['dof']}"
-        loops = respond(
-            {
-                "method": "respond",
-                "kind": "hysteresis",
-                "name": self.joint.name,
-                "motions": [motion],
-                "lap": [{"joint": self.joint}],
-                "response": {"of": motion, "amplitude": [part * slip for part in _LOOPS]},
-            }
-        )
-        assert isinstance(loops, Response)
-        return loops
 
     def __repr__(self) -> str:
         return f"<Prediction: {self.joint!r}>"

@@ -89,7 +89,7 @@ def together(
     is_quiet: bool = False,
 ) -> Functions:
     """As `read`, of files and of functions that are arrays already; of units that are not stated it may be quiet."""
-    factors = None if units is None else _unit_factors(units)
+    factors = None if units is None else unit_factors(units)
     curves: list[_Curve] = []
     coherences: list[_Curve] = []
     stated = averages
@@ -231,7 +231,7 @@ def _of_curves(
     return Functions(frequency_hz, values, responses, references, coherence=coherence, averages=averages)
 
 
-def _unit_factors(units: Mapping[str, str]) -> tuple[float, float]:
+def unit_factors(units: Mapping[str, str]) -> tuple[float, float]:
     """SI units in the length and in the force that a study names."""
     found = []
     for key, known, names in [

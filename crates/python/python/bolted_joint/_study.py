@@ -15,6 +15,7 @@ from . import _native
 from ._command import BoltedJointError, in_words, path_of
 from ._functions import Functions
 from ._joint import Joint
+from ._read import unit_factors
 from ._values import single, within
 
 #: Keys whose texts are never paths.
@@ -158,6 +159,7 @@ class _Tables:
             tables = {
                 str(name): self.written(inner, f"{key}.{name}", within(place, name)) for name, inner in value.items()
             }
+            _refuse_other_statements(value, place)
             if self.has_units and _are_functions(value.get("frf")):
                 tables.setdefault("units", {"length": "m", "force": "N"})
             return tables
@@ -199,6 +201,26 @@ class _Tables:
             name = f"{stem}-{number}"
         self.names.add(name)
         return self.temporary / (name + ending)
+
+
+def _refuse_other_statements(table: Mapping[str, Any], place: str) -> None:
+    """Refuses what a table says of its functions beside arrays, which say something else of themselves."""
+    frf = table.get("frf")
+    given = [one for one in (frf if isinstance(frf, list | tuple) else [frf]) if isinstance(one, Functions)]
+    if not given:
+        return
+    units, quantity = table.get("units"), table.get("quantity")
+    if isinstance(units, Mapping) and unit_factors(units) != (1.0, 1.0):
+        raise BoltedJointError(
+            f"{within(place, 'units')}: found {dict(units)} beside Functions in {within(place, 'frf')}, which are in SI "
+            "units; leave units out, and turn the values into SI before they become Functions"
+        )
+    for functions in given:
+        if isinstance(quantity, str) and quantity != functions.quantity:
+            raise BoltedJointError(
+                f"{within(place, 'quantity')}: found {quantity!r} beside Functions in {within(place, 'frf')} whose "
+                f"quantity is {functions.quantity!r}; leave quantity out, or make Functions with quantity={quantity!r}"
+            )
 
 
 def _are_functions(value: Any) -> bool:

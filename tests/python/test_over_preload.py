@@ -56,6 +56,9 @@ def test_one_matrix_is_that_at_one_preload():
     between = joint.at_preload(12.0)
     assert table["stiffness"][0][0][0] < between.stiffness[0, 0] < table["stiffness"][1][0][0]
     assert between.dynamic_stiffness([10.0]).shape == (1, 2, 2)
+    np.testing.assert_array_equal(between.dynamic_stiffness(10.0), between.dynamic_stiffness([10.0])[0])
+    with pytest.raises(BoltedJointError, match=r"frequency_hz: found an array of shape \(1, 1\)"):
+        between.dynamic_stiffness([[10.0]])
     with pytest.raises(BoltedJointError, match=r"found 30\.0 N·m, expected 10\.0 to 25\.0 N·m"):
         joint.at_preload(30)
     constant = Joint.read(ROOT / "tests/data/joint/m10-aluminium.joint.json")

@@ -176,9 +176,29 @@ class Joint:
         return tuple(self.data.get("status", {}).get("reasons", ()))
 
     def dynamic_stiffness(self, frequency_hz: ArrayLike) -> NDArray[np.complex128]:
-        """K + iωC at each frequency (Hz): shape (F, N, N)."""
+        """K + iωC at each frequency.
+
+        Parameters
+        ----------
+        frequency_hz : float or array of shape (F,)
+            Frequencies, Hz.
+
+        Returns
+        -------
+        complex array of shape (N, N) or (F, N, N)
+            N/m, N/rad and N·m/rad; of one number the one matrix.
+
+        Raises
+        ------
+        BoltedJointError
+            For an array of another shape, or a joint over the preload.
+        """
         omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=np.float64)
-        return self.stiffness + 1j * omega[:, None, None] * self.damping
+        if omega.ndim > 1:
+            raise BoltedJointError(
+                f"frequency_hz: found an array of shape {omega.shape}, expected a number or an array of one axis"
+            )
+        return self.stiffness + 1j * omega[..., None, None] * self.damping
 
     def draw(self, rng: np.random.Generator) -> "Joint":
         """A joint drawn from the normal distribution of its unknowns, those at all preloads at once.

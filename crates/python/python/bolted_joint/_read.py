@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _matlab73, _native
+from . import _archive, _matlab73, _native
 from ._command import BoltedJointError, path_of, run
 from ._functions import Functions
+from ._values import number
 
 #: SI units in one unit, by the names that studies and files have for them.
 _LENGTHS = {
@@ -90,6 +91,7 @@ def together(
 ) -> Functions:
     """As `read`, of files and of functions that are arrays already; of units that are not stated it may be quiet."""
     factors = None if units is None else unit_factors(units)
+    averages = None if averages is None else number("averages", averages, 1.0)
     curves: list[_Curve] = []
     coherences: list[_Curve] = []
     stated = averages
@@ -98,7 +100,7 @@ def together(
             found = _curves_of(source, quantity, factors)
         else:
             found = _curves(source, quantity, averages, factors)
-            if not (found.units_are_stated or is_quiet):
+            if not (found.units_are_stated or is_quiet or _archive.states_si(source)):
                 message = f"{os.fspath(source)}: the file states no units; SI is assumed"
                 warnings.warn(message, stacklevel=3)
             if not found.functions:
@@ -113,7 +115,10 @@ def together(
         coherences += found.coherences
         stated = found.averages if stated is None else stated
     names = ", ".join("functions" if isinstance(one, Functions) else os.fspath(one) for one in sources)
-    return _of_curves(names, curves, coherences, stated)
+    functions = _of_curves(names, curves, coherences, stated)
+    if len(sources) == 1 and not isinstance(sources[0], Functions) and quantity is None and units is None:
+        functions.magnitude_deviation = _archive.deviation(sources[0], functions)
+    return functions
 
 
 #: Response, reference, frequencies and values, as they come from a file.

@@ -4,7 +4,7 @@ import csv
 import os
 import re
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -17,6 +17,7 @@ from ._html import table
 from ._joint import Joint
 from ._read import together
 from ._study import AnyStudy, as_file
+from ._values import listed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -76,9 +77,21 @@ class Response:
         """How many rows there are."""
         return len(self.values)
 
-    def __getitem__(self, column: str) -> NDArray[np.float64]:
+    def __iter__(self) -> Iterator[str]:
+        """The names of the columns."""
+        return iter(self.columns)
+
+    def __contains__(self, column: object) -> bool:
+        """Whether there is a column of this name."""
+        return column in self.columns
+
+    def keys(self) -> tuple[str, ...]:
+        """The names of the columns."""
+        return self.columns
+
+    def __getitem__(self, column: str | tuple[str, str]) -> NDArray[np.float64]:
         """A column by its name."""
-        if column not in self.columns:
+        if not isinstance(column, str) or column not in self.columns:
             raise BoltedJointError(f"found {column!r}, expected one of {', '.join(self.columns)}")
         values: NDArray[np.float64] = self.values[:, self.columns.index(column)]
         return values
@@ -187,7 +200,7 @@ def respond(
     *,
     plan: Literal[True],
     add: int | None = None,
-    wanted: Sequence[str] = (),
+    wanted: Sequence[str] | str = (),
     step_hz: float | None = None,
 ) -> Plan: ...
 
@@ -215,7 +228,7 @@ def respond(
     report: str | os.PathLike[str] | None = None,
     plan: bool = False,
     add: int | None = None,
-    wanted: Sequence[str] = (),
+    wanted: Sequence[str] | str = (),
 ) -> Functions | Response | Plan:
     """What a test of an assembly would measure, how laps or a whole assembly answer, or what a test will tell.
 
@@ -246,7 +259,7 @@ def respond(
         Whether to tell how well the test of a study of method ``frf-space`` will determine its joints.
     add : int, optional
         How many sensors or impacts are added to the planned test, one after the other.
-    wanted : sequence of str
+    wanted : sequence of str, or str
         Numbers for which they are chosen, such as ``["k_x", "c_rz"]``; all if it is empty.
 
     Returns
@@ -288,7 +301,7 @@ def answered(
     report: str | os.PathLike[str] | None = None,
     plan: bool = False,
     add: int | None = None,
-    wanted: Sequence[str] = (),
+    wanted: Sequence[str] | str = (),
     quiet: type[Warning] | None = None,
 ) -> Functions | Response | Plan:
     """As `respond`, which the user calls, without warnings of one type."""
@@ -311,7 +324,7 @@ def answered(
         if add is not None:
             arguments += ["--add", str(add)]
         if wanted:
-            arguments += ["--for", ",".join(wanted)]
+            arguments += ["--for", ",".join(listed("wanted", wanted))]
         if noise is not None:
             arguments += ["noise", noise, "--level", repr(float(noise_level))]
             arguments += ["--samples", str(noise_samples), "--seed", str(seed)]

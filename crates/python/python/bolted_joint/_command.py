@@ -28,8 +28,16 @@ class NotUsableWarning(UserWarning):
     """The work was done, but its result is not to be relied on; the message says why."""
 
 
-def path_of(path: str | os.PathLike[str]) -> str:
-    """A path as an argument; one that begins with a hyphen is no option."""
+def path_of(path: object, argument: str = "path", expected: str = "a path") -> str:
+    """A path as an argument; one that begins with a hyphen is no option.
+
+    Raises
+    ------
+    BoltedJointError
+        With the argument's name and what it is `expected` to be, where it is no path.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise BoltedJointError(f"{argument}: found an object of type {type(path).__name__}, expected {expected}")
     text = os.fspath(path)
     return os.path.join(".", text) if text.startswith("-") else text
 

@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._command import BoltedJointError, in_page, run
+from ._command import BoltedJointError, in_page, path_of, run
 from ._html import table
-from ._identify import Identification, found_in
+from ._identify import Identification, found_in, repeated
 from ._joint import Joint
 from ._predict import Prediction
 from ._study import AnyStudy, as_file, command_of, settled
+
+
+_FORMAT = "bolted-joint-draws/1"
 
 
 class Draws:
@@ -39,6 +42,10 @@ class Draws:
     def __init__(self, text: str):
         self._text = text
         data = json.loads(text)
+        found = data.get("format") if isinstance(data, dict) else None
+        if found != _FORMAT:
+            said = "no key format" if found is None else f"the format {found!r}"
+            raise BoltedJointError(f"found {said}, expected a file of draws (format {_FORMAT!r}) that draw(...) made")
         self.results: tuple[str, ...] = tuple(data["results"])
         none = [np.nan] * len(self.results)
         draws = [draw if isinstance(draw, list) else none for draw in data["draws"]]
@@ -100,14 +107,12 @@ def draw(study: AnyStudy, numbers: range, *, bootstrap: int | None = None, seed:
     BoltedJointError
         If the study or its files cannot be used, or has no such draws.
     """
-    if numbers.step != 1 or len(numbers) == 0:
+    if not isinstance(numbers, range) or numbers.step != 1 or len(numbers) == 0 or numbers.start < 0:
         raise BoltedJointError(f"numbers: found {numbers!r}, expected a range such as range(0, 1000)")
     with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output = Path(folder, "part.draws.json")
         arguments = [command_of(path, shown), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
-        for option, value in [("--bootstrap", bootstrap), ("--seed", seed)]:
-            if value is not None:
-                arguments += [option, str(value)]
+        arguments += repeated(bootstrap, seed)
         run(arguments, shown | {folder + os.sep: ""})
         return Draws.read(output)
 
@@ -152,7 +157,7 @@ def merge(
                 part.save(file)
                 files.append(str(file))
             else:
-                files.append(os.fspath(part))
+                files.append(path_of(part, "parts", "Draws or their files"))
         output, page = Path(folder, "merged.joint.json"), Path(folder, "report.html")
         arguments = ["merge", path, *files, "-o", str(output)]
         if not rivals:

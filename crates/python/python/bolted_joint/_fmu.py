@@ -8,8 +8,9 @@ from typing import Any
 
 from ._command import BoltedJointError, path_of, run
 from ._html import table
-from ._joint import Joint
+from ._joint import AJoint, Joint, joint_of
 from ._study import Study, as_file
+from ._values import number, one_of
 
 
 class Fmu:
@@ -44,7 +45,7 @@ class Fmu:
 
 
 def export(
-    joint: Joint | Study | str | os.PathLike[str],
+    joint: AJoint | Study | str | os.PathLike[str],
     path: str | os.PathLike[str],
     *,
     interface: str | None = None,
@@ -62,7 +63,7 @@ def export(
     Parameters
     ----------
     joint : Joint, Study or path
-        The joint, or its file; or an assembly: its file, or its tables as a `Study`, which may have a `Joint` where a
+        The joint, what was identified or predicted with it, or its file; or an assembly: its file, or its tables as a `Study`, which may have a `Joint` where a
         file has the path of one.
     path : path
         The FMU to write.
@@ -95,6 +96,7 @@ def export(
     """
     with contextlib.ExitStack() as stack:
         shown: dict[str, str] = {}
+        joint = joint_of(joint)
         if isinstance(joint, Joint):
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-"))
             given = os.path.join(folder, "given.joint.json")
@@ -103,18 +105,19 @@ def export(
         elif isinstance(joint, Study):
             given, shown = stack.enter_context(as_file(joint))
         else:
-            given = path_of(joint)
-        arguments = ["export", given, "-o", path_of(path), "--fmi", str(fmi)]
+            given = path_of(joint, "joint", "a Joint, its file, an assembly's file, or a Study(...) of an assembly")
+        arguments = ["export", given, "-o", path_of(path), "--fmi", str(one_of("fmi", fmi, (2, 3)))]
         if interface is not None:
-            arguments += ["--as", interface]
-        for option, value in [
-            ("--step-size-max", step_size_max_s),
-            ("--step-error", step_error),
-            ("--preload", preload_n_m),
-            ("--platforms", platforms),
+            arguments += ["--as", one_of("interface", interface, ("element", "lap"))]
+        for option, argument, value in [
+            ("--step-size-max", "step_size_max_s", step_size_max_s),
+            ("--step-error", "step_error", step_error),
+            ("--preload", "preload_n_m", preload_n_m),
         ]:
             if value is not None:
-                arguments += [option, os.fspath(value) if isinstance(value, str | os.PathLike) else repr(float(value))]
+                arguments += [option, repr(number(argument, value))]
+        if platforms is not None:
+            arguments += ["--platforms", path_of(platforms, "platforms")]
         for option, asked in [
             ("--extrapolate", extrapolate),
             ("--allow-active", allow_active),
@@ -161,13 +164,13 @@ class Checked:
         return table("sound" if self.sound else "not sound", ("", ""), rows)
 
 
-def check(what: Joint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
+def check(what: AJoint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
     """Checks a joint or an FMU, and runs the FMU's library for a moment in a process of its own.
 
     Parameters
     ----------
     what : Joint, Fmu or path
-        What to check.
+        What to check; also what was identified or predicted, of which it is the joint.
     run_library : bool
         Whether the FMU's library is run.
 
@@ -188,12 +191,13 @@ def check(what: Joint | Fmu | str | os.PathLike[str], *, run_library: bool = Tru
     """
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         shown = {}
+        what = joint_of(what)
         if isinstance(what, Joint):
             path = str(Path(folder, "given.joint.json"))
             what.save(path)
             shown[path] = what.name
         else:
-            path = path_of(what)
+            path = path_of(what, "what", "a Joint, an Fmu or a path")
         return Checked(run(["check", path, *([] if run_library else ["--no-run"])], shown, may_find=True))
 
 

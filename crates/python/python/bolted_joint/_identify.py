@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._command import NotUsableWarning, in_page, run
+from ._command import BoltedJointError, NotUsableWarning, in_page, run
 from ._functions import Functions
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints
 from ._respond import answered
 from ._study import AnyStudy, Study, as_file, settled
+from ._values import whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -141,7 +142,7 @@ def identify(
     bootstrap : int, optional
         Repeat the estimate on so many data sets drawn from the fitted model.
     seed : int, optional
-        Seed of the bootstrap.
+        Seed of the bootstrap, which has to be asked for.
     rivals : bool
         Whether the joint model is compared with others.
     report : bool
@@ -166,10 +167,7 @@ def identify(
     with as_file(known if isinstance(study, Mapping) else study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
-        if bootstrap is not None:
-            arguments += ["--bootstrap", str(bootstrap)]
-        if seed is not None:
-            arguments += ["--seed", str(seed)]
+        arguments += repeated(bootstrap, seed)
         if not rivals:
             arguments += ["--no-rivals"]
         if report:
@@ -178,6 +176,22 @@ def identify(
         details = run(arguments, shown)
         html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
         return found_in(Path(folder), "identified", known, details, html)
+
+
+def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
+    """The options of a bootstrap.
+
+    Raises
+    ------
+    BoltedJointError
+        For a seed without a bootstrap, and for what is no whole number.
+    """
+    if bootstrap is None:
+        if seed is not None:
+            raise BoltedJointError(f"seed: found {seed!r} without bootstrap, expected both; nothing else is drawn")
+        return []
+    options = ["--bootstrap", str(whole("bootstrap", bootstrap, 1))]
+    return options if seed is None else [*options, "--seed", str(whole("seed", seed, 0))]
 
 
 def found_in(folder: Path, stem: str, study: Study, details: dict[str, Any], html: str) -> Identification:

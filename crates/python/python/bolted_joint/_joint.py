@@ -5,15 +5,16 @@ import json
 import os
 import tempfile
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._command import BoltedJointError, run
 from ._html import table, with_deviation
-from ._values import checked
+from ._values import checked, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,6 +42,12 @@ class Joint:
     """
 
     def __init__(self, data: dict[str, Any]):
+        if isinstance(data, str | os.PathLike):
+            path = os.fspath(data)
+            raise BoltedJointError(f"data: found the path {path!r}, expected a dictionary; Joint.read({path!r}) reads a file")
+        if not isinstance(data, Mapping):
+            found = type(data).__name__
+            raise BoltedJointError(f"data: found an object of type {found}, expected what a joint file holds: a dictionary")
         self.data = data
 
     @classmethod
@@ -108,7 +115,7 @@ class Joint:
         """
         if not self.preloads and preload_n_m is None:
             return Joint(copy.deepcopy(self.data))
-        preload = self.nominal_preload if preload_n_m is None else float(preload_n_m)
+        preload = self.nominal_preload if preload_n_m is None else number("preload_n_m", preload_n_m)
         with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
             given, fmu = Path(folder, "given.joint.json"), Path(folder, "frozen.fmu")
             self.save(given)
@@ -372,6 +379,23 @@ class Joint:
                             names[name + ending] = (matrix, entry, row, column)
         places = [names.get(name) for name in self.unknowns]
         return None if None in places else places  # type: ignore[return-value]
+
+
+class HasJoint(Protocol):
+    """What was identified or predicted."""
+
+    @property
+    def joint(self) -> Joint:
+        """The joint."""
+
+
+#: What is taken for a joint that is at hand.
+AJoint = Joint | HasJoint
+
+
+def joint_of(what: Any) -> Any:
+    """The joint of what was identified or predicted; anything else as it is."""
+    return what if isinstance(what, Joint) or not isinstance(getattr(what, "joint", None), Joint) else what.joint
 
 
 def _short(value: Any) -> str:

@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 from ._command import BoltedJointError, path_of, run
 from ._functions import Functions
 from ._html import table
-from ._joint import Joint
+from ._joint import AJoint, Joint, joint_of
 from ._read import together
 from ._study import AnyStudy, as_file
-from ._values import listed
+from ._values import listed, number, one_of, whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: What `respond` takes for joints: one for all bolts, or one for each by its name.
-AnyJoint = Joint | str | os.PathLike[str] | Mapping[str, Joint]
+AnyJoint = AJoint | str | os.PathLike[str] | Mapping[str, Joint]
 
 
 class Response:
@@ -316,18 +316,19 @@ def answered(
         if joint is not None:
             arguments += ["--joint", _joint_file(joint, Path(folder), shown)]
         if step_hz is not None:
-            arguments += ["--step", repr(float(step_hz))]
+            arguments += ["--step", repr(number("step_hz", step_hz))]
         if deviations:
             arguments += ["--deviations", str(beside)]
         if report is not None:
-            arguments += ["--report", path_of(report)]
+            arguments += ["--report", path_of(report, "report")]
         if add is not None:
-            arguments += ["--add", str(add)]
+            arguments += ["--add", str(whole("add", add, 0))]
         if wanted:
             arguments += ["--for", ",".join(listed("wanted", wanted))]
         if noise is not None:
-            arguments += ["noise", noise, "--level", repr(float(noise_level))]
-            arguments += ["--samples", str(noise_samples), "--seed", str(seed)]
+            arguments += ["noise", one_of("noise", noise, ("frf", "response"))]
+            arguments += ["--level", repr(number("noise_level", noise_level))]
+            arguments += ["--samples", str(whole("noise_samples", noise_samples, 1)), "--seed", str(whole("seed", seed, 0))]
         details: dict[str, Any] = run(arguments, shown, quiet=quiet, stacklevel=4)
         if plan:
             return Plan(details)
@@ -343,6 +344,7 @@ def _joint_file(joint: AnyJoint, folder: Path, shown: dict[str, str]) -> str:
     """The file of a joint, or the name that those of several bolts have in common."""
     if isinstance(joint, str | os.PathLike):
         return path_of(joint)
+    joint = joint_of(joint)
     joints = {"": joint} if isinstance(joint, Joint) else joint
     if not isinstance(joints, Mapping) or not all(isinstance(one, Joint) for one in joints.values()):
         raise BoltedJointError(

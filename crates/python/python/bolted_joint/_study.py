@@ -89,11 +89,12 @@ class Study(dict[str, Any]):
 
 #: What the functions of this module take for a study.
 AnyStudy = str | os.PathLike[str] | Mapping[str, Any]
+_A_STUDY = "a path, a dictionary or a Study"
 
 
 def tables_of(study: AnyStudy) -> Study:
     """A study's tables as a dictionary of its own, with the folder that its paths are relative to."""
-    return Study(study) if isinstance(study, Mapping) else Study.read(study)
+    return Study(study) if isinstance(study, Mapping) else Study.read(path_of(study, "study", _A_STUDY))
 
 
 def settled(study: AnyStudy) -> Study:
@@ -120,7 +121,7 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
     Where the study is a dictionary, files are made for the time.
     """
     if not isinstance(study, Mapping):
-        yield path_of(study), {}
+        yield path_of(study, "study", _A_STUDY), {}
         return
     folder = Study(study).folder
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:

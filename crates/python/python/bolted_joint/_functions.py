@@ -258,11 +258,22 @@ class Functions:
         table = np.column_stack(columns)
         np.savetxt(path, table, fmt="%.17g", delimiter=",", header=head, comments="", encoding="utf-8")
 
-    def plot(self, **options: Any) -> "Figure":
-        """Draws magnitude and phase over frequency; see `bolted_joint._plot.functions`."""
+    def plot(self, *, most: int = 6) -> "Figure":
+        """Draws magnitude and phase over frequency.
+
+        Parameters
+        ----------
+        most : int
+            At most so many functions are drawn, the strongest ones.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
-        return _plot.functions({"": self}, **options)
+        return _plot.functions({"": self}, most)
 
     def _range(self) -> str:
         return f"{self.frequency_hz[0]:g} to {self.frequency_hz[-1]:g} Hz" if len(self.frequency_hz) else ""

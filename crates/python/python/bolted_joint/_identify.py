@@ -100,11 +100,23 @@ class Identification:
         assert isinstance(response, Functions)
         return response
 
-    def plot(self, assembly: int = 0, **options: Any) -> "Figure":
+    def plot(self, assembly: int = 0, *, most: int = 6) -> "Figure":
         """Draws what was measured and what the identified joint makes of it.
 
-        These are functions of one of the study's assemblies, numbered from 0 on (see `bolted_joint._plot.functions` for
-        `options`); of laps natural frequencies over the torque, or backbones and resonances.
+        These are functions of one of the study's assemblies; of laps natural frequencies over the torque, or backbones
+        and resonances.
+
+        Parameters
+        ----------
+        assembly : int
+            Which of the study's assemblies, from 0 on.
+        most : int
+            At most so many functions are drawn, the strongest ones.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
         """
         from . import _plot
 
@@ -115,7 +127,7 @@ class Identification:
             return _plot.runs(self.details["backbones"], self.details["predictions"])
         of = f", assembly {assembly}" if len(assemblies(self._study)) > 1 else ""
         sets = {f"measured{of}": self.measured(assembly), f"identified{of}": self.regenerated(assembly=assembly)}
-        return _plot.functions(sets, **options)
+        return _plot.functions(sets, most)
 
     def __repr__(self) -> str:
         return f"<Identification: {', '.join(repr(joint) for joint in self.joints.values())}>"

@@ -250,20 +250,35 @@ class Joint:
                 entries[column][row] = entries[row][column]
         return Joint(data)
 
-    def plot(self, **options: Any) -> "Figure":
-        """Draws K + iωC over frequency, over the preload at each of its `preloads`; see `bolted_joint._plot.joints`.
+    def plot(
+        self, from_hz: float | None = None, to_hz: float | None = None, preload_n_m: float | None = None
+    ) -> "Figure":
+        """Draws K + iωC over frequency, over the preload at each of its `preloads`.
 
-        Of a joint that has friction alone loops of load over displacement are drawn.
+        Of a joint that has friction alone loops of load over displacement are drawn, unless frequencies are given.
+
+        Parameters
+        ----------
+        from_hz, to_hz : float, optional
+            First and last frequency, Hz; 1 Hz, and up to where the joint was observed, or 1000 Hz, if they are left out.
+        preload_n_m : float, optional
+            Preload at which a joint over the preload is drawn, N·m; at those of its table if it is left out, of which
+            at most six are drawn.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
         """
         from . import _plot
 
-        if not options and self._has_friction_alone():
+        if from_hz is None and to_hz is None and self._has_friction_alone():
             from ._loops import loops_of
 
-            loops = loops_of(self)
+            loops = loops_of(self if preload_n_m is None else self.at_preload(preload_n_m))
             if loops is not None:
                 return _plot.response(loops, "load")
-        return _plot.joints([self], **options)
+        return _plot.joints([self], 1.0 if from_hz is None else from_hz, to_hz, preload_n_m)
 
     def __repr__(self) -> str:
         over = f"; at preloads of {_listed(self.preloads)} N·m" if self.preloads else ""

@@ -32,21 +32,23 @@ class Prediction:
         self.details = details
         self.report_html = report_html
 
-    def plot(self, **options: Any) -> "Figure":
-        """Draws what was predicted.
+    def plot(self) -> "Figure":
+        """Draws what was predicted; `Joint.plot` of `joint` has options.
 
         Of a layered beam that is damping over the amplitude; of an interface that slips, loops of load over
-        displacement, at each preload of a joint over the preload; else K + iωC over frequency, at each preload of a joint over the preload (see
-        `bolted_joint._plot.joints` for `options`).
+        displacement, at each preload of a joint over the preload; else K + iωC over frequency, likewise.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
         """
         from . import _plot
 
         if "result" in self.details:
-            return _plot.damping_over_amplitude(self.details["result"], **options)
+            return _plot.damping_over_amplitude(self.details["result"])
         loops = loops_of(self.joint)
-        if loops is not None:
-            return _plot.response(loops, "load", **options)
-        return self.joint.plot(**options)
+        return self.joint.plot() if loops is None else _plot.response(loops, "load")
 
     def __repr__(self) -> str:
         return f"<Prediction: {self.joint!r}>"

@@ -117,7 +117,19 @@ class Response:
         return Response(self.columns, self.units, self.values[rows], self.laps[rows], self.details)
 
     def plot(self, up: str | None = None, across: str | None = None) -> "Figure":
-        """Draws one column over another, a curve for each lap and level; see `bolted_joint._plot.response`."""
+        """Draws one column over another, a curve for each lap and level.
+
+        Parameters
+        ----------
+        up, across : str, optional
+            Columns; of a complex number its name, without ``real``, for the magnitude. If they are left out, the first
+            column that is no level, and the one after it that is no load over time.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
         return _plot.response(self, up, across)
@@ -191,12 +203,15 @@ def respond(
     noise_level: float = 0.01,
     noise_samples: int = 4096,
     seed: int = 1,
+    deviations: bool = False,
+    report: str | os.PathLike[str] | None = None,
 ) -> Functions: ...
 
 
 @overload
 def respond(
     study: AnyStudy,
+    joint: None = None,
     *,
     plan: Literal[True],
     add: int | None = None,
@@ -208,8 +223,13 @@ def respond(
 @overload
 def respond(
     study: AnyStudy,
+    joint: AnyJoint | None = None,
     *,
     step_hz: float | None = None,
+    noise: str | None = None,
+    noise_level: float = 0.01,
+    noise_samples: int = 4096,
+    seed: int = 1,
     deviations: bool = False,
     report: str | os.PathLike[str] | None = None,
 ) -> Functions | Response: ...

@@ -136,7 +136,13 @@ class Comparison:
         self.page_html = page_html
 
     def plot(self) -> "Figure":
-        """Draws the numbers with their intervals of 95 %; see `bolted_joint._plot.comparison`."""
+        """Draws the numbers with their intervals of 95 %.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
         return _plot.comparison(self)

@@ -113,6 +113,10 @@ def test_a_mistake_is_an_exception_with_the_words_of_the_command_line(run, demo,
         bolted_joint.identify(study)
     of_command_line = run("identify", study, "-o", tmp_path / "x.joint.json", expect=1)
     assert f"error: {error.value}" == of_command_line.stderr.strip()
+    with pytest.raises(bolted_joint.BoltedJointError) as error:
+        bolted_joint.identify(tmp_path / "nowhere.toml")
+    of_command_line = run("identify", tmp_path / "nowhere.toml", "-o", tmp_path / "x.joint.json", expect=1)
+    assert f"error: {error.value}" == of_command_line.stderr.strip()
 
 
 def test_a_mistake_in_a_dictionary_names_no_file_that_nobody_knows(short):

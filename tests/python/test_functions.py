@@ -66,7 +66,8 @@ def test_averages_are_numbers_from_one_on(tmp_path):
 def test_masked_entries_are_not_used(tmp_path):
     mask = np.zeros(H.shape, bool)
     mask[:, 0, 1] = True
-    functions = Functions(F, np.ma.array(H, mask=mask), NAMES, NAMES, coherence=np.ma.array(np.ones(H.shape), mask=mask))
+    coherence = np.ma.array(np.ones(H.shape), mask=mask)
+    functions = Functions(F, np.ma.array(H, mask=mask), NAMES, NAMES, coherence=coherence)
     assert functions.measured.tolist() == [[True, False], [True, True]]
     assert np.isnan(functions.coherence[:, 0, 1]).all() and functions.coherence[0, 0, 0] == 1.0
     with pytest.raises(BoltedJointError, match="frequency_hz: found masked entries"):

@@ -100,7 +100,8 @@ def test_friction_is_shown_at_each_preload():
         assert (axes.get_xlabel(), axes.get_ylabel()) == ("relative.y, m", "load, N")
         highest = {line.get_label(): np.abs(line.get_ydata()).max() for line in axes.lines}
         # at twice the displacement that the spring would have, all slips
-        found = [max(load for name, load in highest.items() if f"at {preload:g} N·m" in name) for preload in (10, 20, 40)]
+        at = [f"at {preload} N·m" for preload in (10, 20, 40)]
+        found = [max(load for name, load in highest.items() if own in name) for own in at]
         np.testing.assert_allclose(found, [law["slip_force"] for (law,) in laws], rtol=1e-2)
     with pytest.raises(BoltedJointError, match="whose uncertainty is not in the covariance"):
         predicted.joint.draw(np.random.default_rng(1))

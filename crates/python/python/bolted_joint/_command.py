@@ -109,8 +109,8 @@ def run(
     if command in _SHARING:
         if _Threads.are_lost:
             raise BoltedJointError(
-                f"found a process that was forked after its parent had computed, expected one of its own for {command}: "
-                "its threads are not in this one, and it would wait for them for ever; take "
+                f"found a process that was forked after its parent had computed, expected one that was not for {command}:"
+                " threads of the parent are not in this one, which would wait for them for ever; take "
                 'multiprocessing.get_context("spawn") or "forkserver"'
             )
         _Threads.are_there = True

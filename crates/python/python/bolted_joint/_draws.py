@@ -147,8 +147,7 @@ def merge(
         If a part does not belong to the study or to the others, or if draws are there twice or not at all.
     """
     # results tell of the study as it was
-    known = settled(study)
-    given = known if isinstance(study, Mapping) else study
+    given = settled(study) if isinstance(study, Mapping) else study
     with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         command, files = command_of(path, shown), []
         for number, part in enumerate(parts):
@@ -168,5 +167,5 @@ def merge(
         details: dict[str, Any] = run(arguments, shown)
         html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
         if command == "identify":
-            return found_in(Path(folder), "merged", known, details, html)
+            return found_in(Path(folder), "merged", given, details, html)
         return Prediction(Joint.read(output), details, html)

@@ -63,8 +63,8 @@ def export(
     Parameters
     ----------
     joint : Joint, Study or path
-        The joint, what was identified or predicted with it, or its file; or an assembly: its file, or its tables as a `Study`, which may have a `Joint` where a
-        file has the path of one.
+        The joint, what was identified or predicted with it, or its file; or an assembly: its file, or its tables as a
+        `Study`, which may have a `Joint` where a file has the path of one.
     path : path
         The FMU to write.
     interface : {"element", "lap"}, optional

@@ -13,7 +13,7 @@ from ._functions import Functions
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints
 from ._respond import answered
-from ._study import AnyStudy, Study, as_file, settled
+from ._study import AnyStudy, Study, as_file, settled, tables_of
 from ._values import whole
 
 if TYPE_CHECKING:
@@ -175,8 +175,8 @@ def identify(
         If the result is not to be relied on.
     """
     # results tell of the study as it was
-    known = settled(study)
-    with as_file(known if isinstance(study, Mapping) else study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    given = settled(study) if isinstance(study, Mapping) else study
+    with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
         arguments += repeated(bootstrap, seed)
@@ -187,7 +187,7 @@ def identify(
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details = run(arguments, shown)
         html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
-        return found_in(Path(folder), "identified", known, details, html)
+        return found_in(Path(folder), "identified", given, details, html)
 
 
 def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
@@ -206,10 +206,10 @@ def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
     return options if seed is None else [*options, "--seed", str(whole("seed", seed, 0))]
 
 
-def found_in(folder: Path, stem: str, study: Study, details: dict[str, Any], html: str) -> Identification:
+def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str) -> Identification:
     """The joint files that a command has written into a folder, as `stem`.joint.json or `stem`.BOLT.joint.json."""
     joints = {
         file.name.removeprefix(stem).removesuffix("joint.json").strip("."): Joint.read(file)
         for file in sorted(folder.glob("*.joint.json"))
     }
-    return Identification(study, joints, details, html)
+    return Identification(tables_of(study), joints, details, html)

@@ -44,10 +44,13 @@ class Joint:
     def __init__(self, data: dict[str, Any]):
         if isinstance(data, str | os.PathLike):
             path = os.fspath(data)
-            raise BoltedJointError(f"data: found the path {path!r}, expected a dictionary; Joint.read({path!r}) reads a file")
+            raise BoltedJointError(
+                f"data: found the path {path!r}, expected a dictionary; Joint.read({path!r}) reads a file"
+            )
         if not isinstance(data, Mapping):
-            found = type(data).__name__
-            raise BoltedJointError(f"data: found an object of type {found}, expected what a joint file holds: a dictionary")
+            raise BoltedJointError(
+                f"data: found an object of type {type(data).__name__}, expected what a joint file holds: a dictionary"
+            )
         self.data = data
 
     @classmethod
@@ -224,12 +227,12 @@ class Joint:
         places = self._places()
         if covariance is None or not covariance.any():
             found = "no covariance" if covariance is None else "a covariance of zeros"
-            laws = [law["law"] for _, law in self._friction()]
+            laws = ", ".join(dict.fromkeys(law["law"] for _, law in self._friction()))
             if laws:
                 raise BoltedJointError(
-                    f"{self.name}: found {found} of the entries of K and C, and friction ({', '.join(dict.fromkeys(laws))}), "
-                    "whose uncertainty is not in the covariance; expected one to draw from; draw the parameters of the "
-                    "friction from what is known of them, and set them in data"
+                    f"{self.name}: found {found} of the entries of K and C, and friction ({laws}), whose uncertainty is "
+                    "not in the covariance; expected one to draw from; draw the parameters of the friction from what is "
+                    "known of them, and set them in data"
                 )
             if covariance is not None:
                 raise BoltedJointError(
@@ -260,7 +263,8 @@ class Joint:
         Parameters
         ----------
         from_hz, to_hz : float, optional
-            First and last frequency, Hz; 1 Hz, and up to where the joint was observed, or 1000 Hz, if they are left out.
+            First and last frequency, Hz; if they are left out 1 Hz, and that up to which the joint was observed, or
+            1000 Hz.
         preload_n_m : float, optional
             Preload at which a joint over the preload is drawn, N·m; at those of its table if it is left out, of which
             at most six are drawn.
@@ -315,11 +319,12 @@ class Joint:
         return shown
 
     def _friction(self) -> list[tuple[int | None, dict[str, Any]]]:
-        """Laws that remember, which stand beside K and C, each with its place in the table of preloads if there is one."""
+        """Laws that remember, beside K and C, each with its place in the table of preloads if there is one."""
         tables = self._table().get("friction") or ()
-        over: list[tuple[int | None, dict[str, Any]]] = [(entry, law) for entry, laws in enumerate(tables) for law in laws]
+        found: list[tuple[int | None, dict[str, Any]]] = []
+        found += [(entry, law) for entry, laws in enumerate(tables) for law in laws]
         # beside a table of preloads these are stated at the nominal one
-        return over or [(None, law) for law in self.data["joint"].get("friction") or ()]
+        return found or [(None, law) for law in self.data["joint"].get("friction") or ()]
 
     def _has_friction_alone(self) -> bool:
         """Whether K and C are zero and laws that remember are all that there is."""

@@ -348,7 +348,8 @@ def answered(
         if noise is not None:
             arguments += ["noise", one_of("noise", noise, ("frf", "response"))]
             arguments += ["--level", repr(number("noise_level", noise_level))]
-            arguments += ["--samples", str(whole("noise_samples", noise_samples, 1)), "--seed", str(whole("seed", seed, 0))]
+            arguments += ["--samples", str(whole("noise_samples", noise_samples, 1))]
+            arguments += ["--seed", str(whole("seed", seed, 0))]
         details: dict[str, Any] = run(arguments, shown, quiet=quiet, stacklevel=4)
         if plan:
             return Plan(details)

@@ -97,7 +97,7 @@ def tables_of(study: AnyStudy) -> Study:
     return Study(study) if isinstance(study, Mapping) else Study.read(path_of(study, "study", _A_STUDY))
 
 
-def settled(study: AnyStudy) -> Study:
+def settled(study: Mapping[str, Any]) -> Study:
     """A study as it is now: whatever is done to the one that was given, or to the current folder, it stays the same."""
     tables = tables_of(study)
     return Study(_copied(tables), tables.folder)
@@ -213,8 +213,8 @@ def _refuse_other_statements(table: Mapping[str, Any], place: str) -> None:
     units, quantity = table.get("units"), table.get("quantity")
     if isinstance(units, Mapping) and unit_factors(units) != (1.0, 1.0):
         raise BoltedJointError(
-            f"{within(place, 'units')}: found {dict(units)} beside Functions in {within(place, 'frf')}, which are in SI "
-            "units; leave units out, and turn the values into SI before they become Functions"
+            f"{within(place, 'units')}: found {dict(units)} beside Functions in {within(place, 'frf')}, which are in "
+            "SI units; leave units out, and turn the values into SI before they become Functions"
         )
     for functions in given:
         if isinstance(quantity, str) and quantity != functions.quantity:

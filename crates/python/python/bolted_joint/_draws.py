@@ -55,6 +55,7 @@ class Draws:
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Draws":
         """Reads a file of draws; `merge` says more of what is wrong with one."""
+        path_of(path)
         try:
             return cls(Path(path).read_text(encoding="utf-8"))
         except (OSError, ValueError, KeyError, TypeError) as error:

@@ -102,7 +102,7 @@ class Functions:
 
     def __getitem__(self, pair: tuple[str, str] | str) -> NDArray[np.complex128]:
         """One function over frequency, by its response and its reference: ``["11:+Y", "2:+Y"]``."""
-        if isinstance(pair, str) or len(pair) != 2:
+        if not isinstance(pair, tuple | list) or len(pair) != 2:
             raise BoltedJointError(f'found {pair!r}, expected a response and a reference such as ["11:+Y", "2:+Y"]')
         response, reference = pair
         return self.values[:, _index(self.responses, response), _index(self.references, reference)]

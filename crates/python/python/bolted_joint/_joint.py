@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._command import BoltedJointError, run
+from ._command import BoltedJointError, path_of, run
 from ._html import table, with_deviation
 from ._values import checked, number
 
@@ -56,6 +56,7 @@ class Joint:
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Joint":
         """Reads a joint file; `check` says more of what is wrong with one."""
+        path_of(path)
         try:
             data = json.loads(Path(path).read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:

@@ -269,7 +269,9 @@ def _unsigned(response: str, reference: str) -> tuple[str, str]:
 def _paths(
     argument: str, paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 ) -> list[str | os.PathLike[str]]:
-    found = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    found = list(paths) if isinstance(paths, Iterable) and not isinstance(paths, str | os.PathLike) else [paths]
+    for path in found:
+        path_of(path, argument, "a path or a list of paths")
     if not found:
         raise BoltedJointError(f"{argument}: found an empty list, expected at least one file")
     return found

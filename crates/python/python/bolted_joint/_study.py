@@ -72,6 +72,7 @@ class Study(dict[str, Any]):
         BoltedJointError
             For what is not TOML, with line and column.
         """
+        path_of(path)
         path = Path(path)
         try:
             return cls.parse(path.read_text(encoding="utf-8"), path.parent)

@@ -1,6 +1,7 @@
 """The module does what the command line does, to the bit and in the same words."""
 
 import json
+import multiprocessing
 import os
 import pathlib
 import signal
@@ -112,6 +113,10 @@ def test_a_mistake_is_an_exception_with_the_words_of_the_command_line(run, demo,
         bolted_joint.identify(study)
     of_command_line = run("identify", study, "-o", tmp_path / "x.joint.json", expect=1)
     assert f"error: {error.value}" == of_command_line.stderr.strip()
+    with pytest.raises(bolted_joint.BoltedJointError) as error:
+        bolted_joint.identify(tmp_path / "nowhere.toml")
+    of_command_line = run("identify", tmp_path / "nowhere.toml", "-o", tmp_path / "x.joint.json", expect=1)
+    assert f"error: {error.value}" == of_command_line.stderr.strip()
 
 
 def test_a_mistake_in_a_dictionary_names_no_file_that_nobody_knows(short):
@@ -148,6 +153,34 @@ def test_other_threads_run_meanwhile(demo):
     done.set()
     thread.join()
     assert during > 10
+
+
+def work_and_tell(queue, study):
+    try:
+        queue.put(bolted_joint.identify(study).usable)
+    except bolted_joint.BoltedJointError as error:
+        queue.put(str(error))
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn", "forkserver"])
+@pytest.mark.filterwarnings("ignore:.*fork")
+def test_a_forked_process_says_that_it_has_no_threads(demo, method):
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip("no such processes here")
+    bolted_joint.identify(demo / "study.toml")
+    context = multiprocessing.get_context(method)
+    queue = context.Queue()
+    child = context.Process(target=work_and_tell, args=(queue, demo / "study.toml"))
+    child.start()
+    try:
+        told = queue.get(timeout=60)
+    finally:
+        child.kill()
+        child.join()
+    if method == "fork":
+        assert "forked after its parent had computed" in told and 'get_context("spawn")' in told
+    else:
+        assert told is True
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal where there are signals")

@@ -1,5 +1,8 @@
 """Figures by Matplotlib: that they show what was measured and found."""
 
+import pickle
+import warnings
+
 import numpy as np
 import pytest
 
@@ -7,6 +10,22 @@ import bolted_joint
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
+
+
+def test_pyplot_keeps_no_figure(demo):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    joint = bolted_joint.Joint.read(demo / "m10x16.joint.json")
+    functions = bolted_joint.read(demo / "assembly.uff")
+    open_before = pyplot.get_fignums()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figures = [joint.plot() for _ in range(25)]
+    assert isinstance(functions.plot(most=2), matplotlib.figure.Figure) and pyplot.get_fignums() == open_before
+    assert figures[0]._repr_png_().startswith(b"\x89PNG") and pickle.loads(pickle.dumps(figures[0])).axes
+    # a notebook makes one picture of it
+    formatter = pytest.importorskip("IPython.core.interactiveshell").DisplayFormatter()
+    data, _ = formatter.format(figures[0])
+    assert "image/png" in data
 
 
 def test_measured_and_identified_functions_are_drawn(demo, tmp_path):

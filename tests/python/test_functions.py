@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import bolted_joint
-from bolted_joint import BoltedJointError, Functions
+from bolted_joint import BoltedJointError, Functions, _native
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 F = np.array([1.0, 2.0, 4.0])
@@ -18,18 +18,77 @@ NAMES = ["1:+Y", "2:+Y"]
 def test_what_is_saved_is_read_to_the_bit(tmp_path):
     coherence = np.full(H.shape, 0.75)
     Functions(F, H, NAMES, NAMES, coherence=coherence, averages=16).save(tmp_path / "a.npz")
-    with pytest.warns(UserWarning, match="SI is assumed"):
-        read = bolted_joint.read(tmp_path / "a.npz")
+    read = bolted_joint.read(tmp_path / "a.npz")
     np.testing.assert_array_equal(read.values, H)
     np.testing.assert_array_equal(read.frequency_hz, F)
     np.testing.assert_array_equal(read.coherence, coherence)
     assert (read.responses, read.references, read.averages) == (tuple(NAMES), tuple(NAMES), 16)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("quantity", ["receptance", "mobility", "accelerance"])
+@pytest.mark.parametrize("ending", ["npz", "csv"])
+def test_a_file_says_its_units_and_how_far_magnitudes_are_known(tmp_path, quantity, ending):
+    names = ["1:+Y", "1:+RZ"]
+    functions = Functions(F, H, names, names, quantity=quantity)
+    functions.magnitude_deviation = 0.1 * np.abs(H)
+    functions.save(tmp_path / f"a.{ending}")
+    read = bolted_joint.read(tmp_path / f"a.{ending}")
+    expected = functions.as_quantity("receptance")
+    np.testing.assert_allclose(read.values, expected.values, rtol=1e-14)
+    # of a quantity that is differentiated in time, deviations are so too
+    np.testing.assert_allclose(expected.magnitude_deviation, 0.1 * np.abs(expected.values), rtol=1e-14)
+    if ending == "npz":
+        np.testing.assert_allclose(read.magnitude_deviation, expected.magnitude_deviation, rtol=1e-14)
+    part = functions.select("1:+RZ", "1:+Y", to_hz=2.0)
+    assert (part.responses, part.references) == (("1:+RZ",), ("1:+Y",))
+    np.testing.assert_array_equal(part.magnitude_deviation, functions.magnitude_deviation[:2, 1:, :1])
+    with pytest.raises(BoltedJointError, match=r"a\.uff: found the ending '\.uff', expected \.npz .* or \.csv"):
+        functions.save(tmp_path / "a.uff")
+    translations = functions.select("1:+Y", "1:+Y")
+    translations.save(tmp_path / f"b.{ending}")
+    # the command line reads them too
+    *_, units_are_stated = _native.read_functions(tmp_path / f"b.{ending}")
+    assert units_are_stated
+
+
+def test_averages_are_numbers_from_one_on(tmp_path):
+    functions = Functions(F, H, NAMES, NAMES, averages=np.int64(16))
+    for path in (tmp_path / "a.npz", tmp_path / "a.csv"):
+        functions.save(path)
+        assert bolted_joint.read(path).averages == 16
+        assert bolted_joint.read(path, averages=np.int64(4)).averages in (4, 16)
+    for wrong in (0, -1, np.nan, np.inf, "16", True):
+        with pytest.raises(BoltedJointError, match="averages: found .*, expected a finite number from 1 on"):
+            Functions(F, H, NAMES, NAMES, averages=wrong)
+
+
+def test_masked_entries_are_not_used(tmp_path):
+    mask = np.zeros(H.shape, bool)
+    mask[:, 0, 1] = True
+    coherence = np.ma.array(np.ones(H.shape), mask=mask)
+    functions = Functions(F, np.ma.array(H, mask=mask), NAMES, NAMES, coherence=coherence)
+    assert functions.measured.tolist() == [[True, False], [True, True]]
+    assert np.isnan(functions.coherence[:, 0, 1]).all() and functions.coherence[0, 0, 0] == 1.0
+    with pytest.raises(BoltedJointError, match="frequency_hz: found masked entries"):
+        Functions(np.ma.array(F, mask=[True, False, False]), H, NAMES, NAMES)
+
+
+def test_functions_are_found_by_their_names():
+    values = H.copy()
+    values[:, 0, 1] = np.nan
+    functions = Functions(F, values, NAMES, NAMES)
+    assert list(functions) == list(functions.keys()) == [("1:+Y", "1:+Y"), ("2:+Y", "1:+Y"), ("2:+Y", "2:+Y")]
+    assert ("2:+Y", "1:+Y") in functions and ("1:+Y", "2:+Y") not in functions and "1:+Y" not in functions
+    with pytest.raises(BoltedJointError, match="found '1:.*expected a response and a reference"):
+        functions["1:+Y"]
+    with pytest.raises(BoltedJointError, match=r"found '3:\+Y', expected one of 1:\+Y, 2:\+Y"):
+        functions.select("3:+Y")
+
+
 def test_accelerance_is_read_as_receptance(tmp_path):
     Functions(F, H, NAMES, NAMES, quantity="accelerance").save(tmp_path / "a.npz")
-    with pytest.warns(UserWarning, match="SI is assumed"):
-        read = bolted_joint.read(tmp_path / "a.npz")
+    read = bolted_joint.read(tmp_path / "a.npz")
     # H = A / (iω)²
     expected = H / (2j * np.pi * F[:, None, None]) ** 2
     np.testing.assert_allclose(read.values, expected, rtol=1e-14)

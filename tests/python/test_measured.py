@@ -34,6 +34,40 @@ def close(found, expected):
     np.testing.assert_allclose(found.values, expected.values, rtol=1e-12)
 
 
+def test_what_was_identified_stays_what_it_was(short, tmp_path, monkeypatch):
+    whole = short["assembly"]["frf"]
+    values = 1.0 * whole.values
+    given = with_values(whole, values)
+    values *= 2.0
+    short["assembly"]["frf"] = given
+    found = bolted_joint.identify(short)
+    short["assembly"]["frf"] = with_values(whole, 3.0 * whole.values)
+    short["joint"]["model"] = "diagonal"
+    with pytest.warns(UserWarning, match="not identified"):
+        other = bolted_joint.identify(short)
+    assert other.joint.data["joint"] != found.joint.data["joint"]
+    close(found.measured(), whole)
+    regenerated = found.regenerated(5)
+    # a dictionary whose paths are relative to the current folder
+    whole.save(tmp_path / "assembly.csv")
+    monkeypatch.chdir(tmp_path)
+    tables = {**dict(short), "assembly": {**short["assembly"], "frf": "assembly.csv"}}
+    tables["a"] = {**short["a"], "modal": short.folder / short["a"]["modal"]}
+    tables["joint"] = {**short["joint"], "model": "full"}
+    of_path = bolted_joint.identify(tables)
+    monkeypatch.chdir(tmp_path.parent)
+    close(of_path.measured(), whole)
+    np.testing.assert_allclose(of_path.regenerated(5).values, regenerated.values, rtol=1e-9)
+    assert of_path.plot().axes[0].lines
+
+
+def test_copies_of_a_study_keep_its_folder(short):
+    for other in (short.copy(), short | {"name": "other"}, {"name": "other"} | short, bolted_joint.Study(short)):
+        assert isinstance(other, bolted_joint.Study) and other.folder == short.folder
+    assert (short | {"name": "other"})["name"] == "other" and ({"name": "other"} | short)["name"] == short["name"]
+    assert bolted_joint.identify(short.copy()).usable
+
+
 @pytest.mark.parametrize("kind", ["paths", "functions", "both"])
 def test_functions_in_several_files_are_one_measurement(short, tmp_path, kind):
     whole = short["assembly"]["frf"]
@@ -56,7 +90,12 @@ def test_a_study_in_millimetres_is_measured_in_metres(short, tmp_path):
     short["assembly"] |= {"frf": tmp_path / "millimetres.csv", "units": MILLIMETRES}
     of_file = bolted_joint.identify(short)
     close(of_file.measured(), whole)
+    # arrays are in SI units
     short["assembly"]["frf"] = with_values(whole, 1e3 * whole.values)
+    said = r'study\["assembly"\]\["units"\]: found .*mm.* beside Functions in study\["assembly"\]\["frf"\], .* in SI'
+    with pytest.raises(BoltedJointError, match=said):
+        bolted_joint.identify(short)
+    short["assembly"] |= {"frf": [whole], "units": {"length": "m", "force": "N"}, "quantity": "receptance"}
     of_arrays = bolted_joint.identify(short)
     close(of_arrays.measured(), whole)
     np.testing.assert_allclose(of_arrays.joint.stiffness, of_file.joint.stiffness, rtol=1e-9)
@@ -79,9 +118,12 @@ def test_accelerance_is_drawn_as_the_receptance_that_it_is(short):
     assert above.get_ylabel() == "receptance, SI"
     curves = {line.get_label(): line.get_ydata() for line in above.lines}
     np.testing.assert_allclose(curves["13:+Y/13:+Y measured"], np.abs(whole["13:+Y", "13:+Y"]), rtol=1e-12)
-    # the study has the last word of what its functions are
-    short["assembly"] |= {"frf": with_values(whole, accelerance.values), "quantity": "accelerance"}
+    short["assembly"] |= {"quantity": "accelerance"}
     close(bolted_joint.identify(short).measured(), whole)
+    # a study and its functions do not contradict each other
+    short["assembly"]["frf"] = with_values(whole, accelerance.values)
+    with pytest.raises(BoltedJointError, match="found 'accelerance' beside Functions .* is 'receptance'; leave"):
+        bolted_joint.identify(short)
 
 
 def test_each_of_several_assemblies_is_measured_and_regenerated_at_its_torque(short):

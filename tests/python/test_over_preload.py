@@ -56,6 +56,9 @@ def test_one_matrix_is_that_at_one_preload():
     between = joint.at_preload(12.0)
     assert table["stiffness"][0][0][0] < between.stiffness[0, 0] < table["stiffness"][1][0][0]
     assert between.dynamic_stiffness([10.0]).shape == (1, 2, 2)
+    np.testing.assert_array_equal(between.dynamic_stiffness(10.0), between.dynamic_stiffness([10.0])[0])
+    with pytest.raises(BoltedJointError, match=r"frequency_hz: found an array of shape \(1, 1\)"):
+        between.dynamic_stiffness([[10.0]])
     with pytest.raises(BoltedJointError, match=r"found 30\.0 N·m, expected 10\.0 to 25\.0 N·m"):
         joint.at_preload(30)
     constant = Joint.read(ROOT / "tests/data/joint/m10-aluminium.joint.json")
@@ -80,6 +83,28 @@ def test_draws_scatter_at_all_preloads_as_the_covariance_says(predicted):
     assert found == pytest.approx(stated, abs=0.01) and stated > 0.9
     with pytest.raises(BoltedJointError, match="no covariance .* at all preloads"):
         Joint.read(TABLE).draw(rng)
+
+
+@pytest.mark.filterwarnings("error")
+def test_friction_is_shown_at_each_preload():
+    pytest.importorskip("matplotlib").use("Agg")
+    study = bolted_joint.Study.read(ROOT / "examples/predict-microslip/over-torque.toml")
+    study["uncertainty"] = {"draws": 20}
+    predicted = bolted_joint.predict(study)
+    html = predicted._repr_html_()
+    laws = predicted.joint.data["joint"]["over_preload"]["friction"]
+    for preload, (law,) in zip(predicted.joint.preloads, laws, strict=True):
+        assert f"<td>{preload:g}</td><td>y, iwan</td><td>slip_force {law['slip_force']:.6g}" in html
+    for figure in (predicted.plot(), predicted.joint.plot()):
+        (axes,) = figure.axes
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("relative.y, m", "load, N")
+        highest = {line.get_label(): np.abs(line.get_ydata()).max() for line in axes.lines}
+        # at twice the displacement that the spring would have, all slips
+        at = [f"at {preload} N·m" for preload in (10, 20, 40)]
+        found = [max(load for name, load in highest.items() if own in name) for own in at]
+        np.testing.assert_allclose(found, [law["slip_force"] for (law,) in laws], rtol=1e-2)
+    with pytest.raises(BoltedJointError, match="whose uncertainty is not in the covariance"):
+        predicted.joint.draw(np.random.default_rng(1))
 
 
 def test_it_is_drawn_at_its_preloads_or_at_one(predicted):

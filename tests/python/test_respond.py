@@ -27,6 +27,8 @@ def test_an_assembly_file_answers_as_at_the_command_line(run, tmp_path):
     np.testing.assert_array_equal(response["tip"], numbers[:, names.index("tip [m]")])
     assert len(response) == 501 and response.details["modes"][0]["frequency_hz"] == pytest.approx(12.08, abs=0.01)
     assert "energy stored" in repr(response) and "<td>tip</td><td>m</td>" in response._repr_html_()
+    assert list(response) == list(response.keys()) == list(response.columns) and "tip" in response
+    assert "tap" not in response and set(dict(response)) == set(response.columns)
     with pytest.raises(BoltedJointError, match="found 'tap', expected one of time, push, tip"):
         response["tap"]
 
@@ -88,6 +90,13 @@ def test_a_test_is_planned(run):
     (place,) = np.flatnonzero(~plan.determined)
     assert told["unknowns"][place]["reason"] in (html := plan._repr_html_()) and len(plan.additions) == 2
     assert "41 of 42 numbers will be determined" in html and "add " in html and "<td>k_x</td><td>2e+07</td>" in html
+
+
+@pytest.mark.filterwarnings("ignore:.*impacts")
+def test_one_number_may_be_wanted_by_its_name():
+    study = EXAMPLES / "plan-in-space/study.toml"
+    plans = [bolted_joint.respond(study, plan=True, step_hz=100, add=1, wanted=own) for own in ("k_x", ["k_x"])]
+    assert plans[0].additions == plans[1].additions and len(plans[0].additions) == 1
 
 
 def test_noise_is_that_of_the_command_line(run, demo, tmp_path):

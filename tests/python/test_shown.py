@@ -1,6 +1,11 @@
 """What notebooks show of results, and what is said of values that no file has a word for."""
 
+import json
 import pathlib
+import re
+import threading
+import time
+import warnings
 
 import numpy as np
 import pytest
@@ -25,6 +30,61 @@ def test_fmus_and_checks_are_tables(tmp_path):
     assert "<caption>sound</caption>" in html and "terminals: a, b" in html
     wrong = bolted_joint.Checked({"sound": False, "facts": [], "findings": ["it is <broken>"]})
     assert "not sound" in wrong._repr_html_() and "it is &lt;broken&gt;" in wrong._repr_html_()
+
+
+def test_what_is_wrong_is_found_and_what_cannot_be_read_is_refused(tmp_path):
+    joint = Joint.read(M10)
+    joint.data["joint"]["stiffness"][0][0] = -1.0
+    found = bolted_joint.check(joint)
+    assert not found.sound and found.usable
+    assert "joint.stiffness is active" in found.findings[0] and "is active" in repr(found)
+    joint = Joint.read(M10)
+    joint.data["status"] = {"usable": False, "reasons": ["it rattles"]}
+    with pytest.warns(bolted_joint.NotUsableWarning, match=f"^{joint.name}: not to be relied on"):
+        found = bolted_joint.check(joint)
+    assert found.sound and not found.usable and "it rattles" in found._repr_html_()
+    cut_off = tmp_path / "cut-off.joint.json"
+    cut_off.write_text("{", encoding="utf-8")
+    with pytest.raises(BoltedJointError, match="cut off"):
+        bolted_joint.check(cut_off)
+
+
+def test_no_text_names_a_folder_that_is_gone(tmp_path, short):
+    joint = Joint.read(M10)
+    hidden = "bolted-joint-[a-z0-9_]{8}"
+    assert not re.search(hidden, json.dumps(bolted_joint.check(joint).details))
+    compared = bolted_joint.compare(joint, joint, page=True)
+    assert not re.search(hidden, compared.page_html + json.dumps(compared.details)) and joint.name in compared.page_html
+    with pytest.raises(BoltedJointError) as refused:
+        bolted_joint.respond(short, Joint({**joint.data, "format": "other"}))
+    assert joint.name in str(refused.value) and not re.search(hidden, str(refused.value))
+    short["b"]["beam"] |= {"length": 0.30, "density": 1350}
+    with pytest.warns(UserWarning) as told:
+        found = bolted_joint.identify(short)
+    texts = [str(one.message) for one in told]
+    assert any(text.startswith("the joint: not to be relied on") for text in texts)
+    assert not any(re.search(hidden, text) for text in [*texts, json.dumps(found.details)])
+
+
+def test_warnings_are_those_of_the_user_in_all_threads(short):
+    joint = Joint.read(ROOT / "tests/data/joint/torques.joint.json")
+    found = bolted_joint.identify(short, rivals=False)
+
+    def work():
+        for _ in range(4):
+            joint.at_preload(12)
+            found.measured()
+            found.regenerated(50)
+
+    before = list(warnings.filters)
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    changed = []
+    for thread in threads:
+        thread.start()
+    while any(thread.is_alive() for thread in threads):
+        changed.append(list(warnings.filters) != before)
+        time.sleep(1e-4)
+    assert not any(changed) and list(warnings.filters) == before
 
 
 def test_draws_are_a_table_of_their_percentiles(short):
@@ -67,6 +127,9 @@ def test_predictions_are_drawn_by_their_kind():
     (axes,) = slipping.plot().axes
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("relative.y, m", "load, N") and len(axes.lines) == 3
     law = slipping.joint.data["joint"]["friction"][0]
+    assert len(slipping.joint.plot().axes[0].lines) == 3
+    with pytest.raises(BoltedJointError, match=r"of zeros .* friction \(iwan\), whose uncertainty is not in"):
+        slipping.joint.draw(np.random.default_rng(1))
     # at twice the displacement that the spring would have, all slips
     assert np.abs(axes.lines[2].get_ydata()).max() == pytest.approx(law["slip_force"], rel=1e-6)
 

@@ -14,8 +14,7 @@ def test_show_tells_what_the_command_line_tells(run, demo):
     assert look.kind == told["kind"] and look.facts == told["facts"] and look.details == told["details"]
     assert "<svg" in look.page_html and "11:+Y" in repr(look)
     functions = bolted_joint.read(demo / "assembly.uff")
-    with pytest.warns(UserWarning, match="SI is assumed"):
-        of_arrays = bolted_joint.show(functions)
+    of_arrays = bolted_joint.show(functions)
     assert of_arrays.facts["responses"] == look.facts["responses"]
     joint = bolted_joint.show(bolted_joint.Joint.read(demo / "m10x16.joint.json"))
     assert joint.file == "given.joint.json" and "<table>" in joint._repr_html_()
@@ -101,7 +100,6 @@ def test_functions_with_pairs_that_were_not_measured_go_into_a_study(demo, tmp_p
     np.testing.assert_allclose(of_arrays.joint.stiffness, of_file.joint.stiffness, rtol=1e-6)
     # a table tells every number to the bit
     part.save(tmp_path / "part.csv")
-    with pytest.warns(UserWarning, match="SI is assumed"):
-        read = bolted_joint.read(tmp_path / "part.csv")
+    read = bolted_joint.read(tmp_path / "part.csv")
     assert read.select(names, names).values[:, part.measured].tobytes() == values[:, part.measured].tobytes()
     assert len(part) == 7

@@ -4,7 +4,8 @@ import json
 import os
 import sys
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,9 @@ PYTHON = (sys.executable, ["-m", "bolted_joint"], str(_PLATFORMS) if _PLATFORMS.
 
 _NOT_USABLE = 3
 
+#: Commands whose work is shared among threads.
+_SHARING = ("identify", "merge", "predict", "respond")
+
 
 class BoltedJointError(ValueError):
     """What was given cannot be used; the message says where, what was found and what was expected."""
@@ -27,13 +31,56 @@ class NotUsableWarning(UserWarning):
     """The work was done, but its result is not to be relied on; the message says why."""
 
 
-def path_of(path: str | os.PathLike[str]) -> str:
-    """A path as an argument; one that begins with a hyphen is no option."""
+def path_of(path: object, argument: str = "path", expected: str = "a path") -> str:
+    """A path as an argument; one that begins with a hyphen is no option.
+
+    Raises
+    ------
+    BoltedJointError
+        With the argument's name and what it is `expected` to be, where it is no path.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise BoltedJointError(f"{argument}: found an object of type {type(path).__name__}, expected {expected}")
     text = os.fspath(path)
     return os.path.join(".", text) if text.startswith("-") else text
 
 
-def run(arguments: Iterable[str], hidden: str = "", stacklevel: int = 3) -> Any:
+class _Threads:
+    """Whether commands share threads here, and whether they are those of a parent, which a forked process lacks."""
+
+    are_there = False
+    are_lost = False
+
+    @classmethod
+    def lose(cls) -> None:
+        """What is done in a process that was forked."""
+        cls.are_lost = cls.are_lost or cls.are_there
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_Threads.lose)
+
+
+def in_words(text: str, shown: Mapping[str, str]) -> str:
+    """A text in which the names of files that nobody but this module knows of have others in their place."""
+    for hidden, name in shown.items():
+        text = text.replace(hidden, name)
+    return text
+
+
+def in_page(page: str, shown: Mapping[str, str]) -> str:
+    """As `in_words`, in HTML."""
+    return in_words(page, {escape(hidden): escape(name) for hidden, name in shown.items()})
+
+
+def run(
+    arguments: Iterable[str],
+    shown: Mapping[str, str] = {},
+    *,
+    quiet: type[Warning] | None = None,
+    stacklevel: int = 3,
+    may_find: bool = False,
+) -> Any:
     """Runs a command that prints JSON, and gives what it prints.
 
     Its warnings become Python's, its error an exception.
@@ -42,32 +89,52 @@ def run(arguments: Iterable[str], hidden: str = "", stacklevel: int = 3) -> Any:
     ----------
     arguments : iterable of str
         The command's name, and its arguments without ``--json``.
-    hidden : str
-        What messages do not show: the folder of files that nobody but this module knows of.
+    shown : mapping of str to str
+        What messages and JSON show in place of files that nobody but this module knows of.
+    quiet : type of warning, optional
+        Warnings that are not given: filters of the module `warnings` would be those of all threads.
     stacklevel : int
         How many calls above this one the user's call is.
+    may_find : bool
+        Whether an error is none where the command has printed what it found.
 
     Raises
     ------
     BoltedJointError
-        With the command line's message.
+        With the command line's message, or in a forked process that would wait for threads that it does not have.
     KeyboardInterrupt
         At Ctrl-C.
     """
     command, *rest = arguments
+    if command in _SHARING:
+        if _Threads.are_lost:
+            raise BoltedJointError(
+                f"found a process that was forked after its parent had computed, expected one that was not for {command}:"
+                " threads of the parent are not in this one, which would wait for them for ever; take "
+                'multiprocessing.get_context("spawn") or "forkserver"'
+            )
+        _Threads.are_there = True
     # before what stands at the end, which may be a command of its own
     exit_code, printed, messages = _native.call([command, "--json", *rest], PYTHON)
     errors = []
+    told: list[tuple[str, type[Warning]]] = []
     for message in messages:
-        if hidden:
-            message = message.replace(hidden, "")
+        message = in_words(message, shown)
         if message.startswith("warning: "):
-            warnings.warn(message.removeprefix("warning: "), UserWarning, stacklevel=stacklevel)
+            told.append((message.removeprefix("warning: "), UserWarning))
         else:
             errors.append(message.removeprefix("error: ").rstrip())
     error = "\n".join(errors)
     if exit_code == _NOT_USABLE:
-        warnings.warn(error, NotUsableWarning, stacklevel=stacklevel)
-    elif exit_code != 0:
+        told.append((error, NotUsableWarning))
+    for text, kind in told:
+        if quiet is None or not issubclass(kind, quiet):
+            warnings.warn(text, kind, stacklevel=stacklevel)
+    if exit_code not in (0, _NOT_USABLE) and not (may_find and printed):
         raise BoltedJointError(error)
-    return json.loads(printed)
+    return json.loads(in_words(printed, {_inner(hidden): _inner(name) for hidden, name in shown.items()}))
+
+
+def _inner(text: str) -> str:
+    """A text as JSON has it within quotes."""
+    return json.dumps(text, ensure_ascii=False)[1:-1]

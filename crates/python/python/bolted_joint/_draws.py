@@ -3,19 +3,22 @@
 import json
 import os
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._command import BoltedJointError, run
+from ._command import BoltedJointError, in_page, path_of, run
 from ._html import table
-from ._identify import Identification, found_in
+from ._identify import Identification, found_in, repeated
 from ._joint import Joint
 from ._predict import Prediction
-from ._study import AnyStudy, as_file, command_of
+from ._study import AnyStudy, as_file, command_of, settled
+
+
+_FORMAT = "bolted-joint-draws/1"
 
 
 class Draws:
@@ -39,6 +42,10 @@ class Draws:
     def __init__(self, text: str):
         self._text = text
         data = json.loads(text)
+        found = data.get("format") if isinstance(data, dict) else None
+        if found != _FORMAT:
+            said = "no key format" if found is None else f"the format {found!r}"
+            raise BoltedJointError(f"found {said}, expected a file of draws (format {_FORMAT!r}) that draw(...) made")
         self.results: tuple[str, ...] = tuple(data["results"])
         none = [np.nan] * len(self.results)
         draws = [draw if isinstance(draw, list) else none for draw in data["draws"]]
@@ -48,6 +55,7 @@ class Draws:
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Draws":
         """Reads a file of draws; `merge` says more of what is wrong with one."""
+        path_of(path)
         try:
             return cls(Path(path).read_text(encoding="utf-8"))
         except (OSError, ValueError, KeyError, TypeError) as error:
@@ -100,15 +108,13 @@ def draw(study: AnyStudy, numbers: range, *, bootstrap: int | None = None, seed:
     BoltedJointError
         If the study or its files cannot be used, or has no such draws.
     """
-    if numbers.step != 1 or len(numbers) == 0:
+    if not isinstance(numbers, range) or numbers.step != 1 or len(numbers) == 0 or numbers.start < 0:
         raise BoltedJointError(f"numbers: found {numbers!r}, expected a range such as range(0, 1000)")
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output = Path(folder, "part.draws.json")
-        arguments = [command_of(path, hidden), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
-        for option, value in [("--bootstrap", bootstrap), ("--seed", seed)]:
-            if value is not None:
-                arguments += [option, str(value)]
-        run(arguments, hidden)
+        arguments = [command_of(path, shown), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
+        arguments += repeated(bootstrap, seed)
+        run(arguments, shown | {folder + os.sep: ""})
         return Draws.read(output)
 
 
@@ -141,23 +147,26 @@ def merge(
     BoltedJointError
         If a part does not belong to the study or to the others, or if draws are there twice or not at all.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
-        command, files = command_of(path, hidden), []
+    # results tell of the study as it was
+    given = settled(study) if isinstance(study, Mapping) else study
+    with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        command, files = command_of(path, shown), []
         for number, part in enumerate(parts):
             if isinstance(part, Draws):
                 file = Path(folder, f"part-{number + 1}.draws.json")
                 part.save(file)
                 files.append(str(file))
             else:
-                files.append(os.fspath(part))
+                files.append(path_of(part, "parts", "Draws or their files"))
         output, page = Path(folder, "merged.joint.json"), Path(folder, "report.html")
         arguments = ["merge", path, *files, "-o", str(output)]
         if not rivals:
             arguments += ["--no-rivals"]
         if report:
             arguments += ["--report", str(page)]
-        details: dict[str, Any] = run(arguments, hidden)
-        html = page.read_text(encoding="utf-8") if report else ""
+        shown |= {str(output): "the joint", folder + os.sep: ""}
+        details: dict[str, Any] = run(arguments, shown)
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
         if command == "identify":
-            return found_in(Path(folder), "merged", study, details, html)
+            return found_in(Path(folder), "merged", given, details, html)
         return Prediction(Joint.read(output), details, html)

@@ -8,8 +8,9 @@ from typing import Any
 
 from ._command import BoltedJointError, path_of, run
 from ._html import table
-from ._joint import Joint
+from ._joint import AJoint, Joint, joint_of
 from ._study import Study, as_file
+from ._values import number, one_of
 
 
 class Fmu:
@@ -44,7 +45,7 @@ class Fmu:
 
 
 def export(
-    joint: Joint | Study | str | os.PathLike[str],
+    joint: AJoint | Study | str | os.PathLike[str],
     path: str | os.PathLike[str],
     *,
     interface: str | None = None,
@@ -62,8 +63,8 @@ def export(
     Parameters
     ----------
     joint : Joint, Study or path
-        The joint, or its file; or an assembly: its file, or its tables as a `Study`, which may have a `Joint` where a
-        file has the path of one.
+        The joint, what was identified or predicted with it, or its file; or an assembly: its file, or its tables as a
+        `Study`, which may have a `Joint` where a file has the path of one.
     path : path
         The FMU to write.
     interface : {"element", "lap"}, optional
@@ -94,25 +95,29 @@ def export(
         If the joint cannot be exported.
     """
     with contextlib.ExitStack() as stack:
-        hidden = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-")) + os.sep
+        shown: dict[str, str] = {}
+        joint = joint_of(joint)
         if isinstance(joint, Joint):
-            given = os.path.join(hidden, "given.joint.json")
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-"))
+            given = os.path.join(folder, "given.joint.json")
             joint.save(given)
+            shown = {given: joint.name}
         elif isinstance(joint, Study):
-            given, hidden = stack.enter_context(as_file(joint))
+            given, shown = stack.enter_context(as_file(joint))
         else:
-            given = path_of(joint)
-        arguments = ["export", given, "-o", path_of(path), "--fmi", str(fmi)]
+            given = path_of(joint, "joint", "a Joint, its file, an assembly's file, or a Study(...) of an assembly")
+        arguments = ["export", given, "-o", path_of(path), "--fmi", str(one_of("fmi", fmi, (2, 3)))]
         if interface is not None:
-            arguments += ["--as", interface]
-        for option, value in [
-            ("--step-size-max", step_size_max_s),
-            ("--step-error", step_error),
-            ("--preload", preload_n_m),
-            ("--platforms", platforms),
+            arguments += ["--as", one_of("interface", interface, ("element", "lap"))]
+        for option, argument, value in [
+            ("--step-size-max", "step_size_max_s", step_size_max_s),
+            ("--step-error", "step_error", step_error),
+            ("--preload", "preload_n_m", preload_n_m),
         ]:
             if value is not None:
-                arguments += [option, os.fspath(value) if isinstance(value, str | os.PathLike) else repr(float(value))]
+                arguments += [option, repr(number(argument, value))]
+        if platforms is not None:
+            arguments += ["--platforms", path_of(platforms, "platforms")]
         for option, asked in [
             ("--extrapolate", extrapolate),
             ("--allow-active", allow_active),
@@ -120,7 +125,7 @@ def export(
         ]:
             if asked:
                 arguments.append(option)
-        return Fmu(Path(path), run(arguments, hidden))
+        return Fmu(Path(path), run(arguments, shown))
 
 
 class Checked:
@@ -130,6 +135,10 @@ class Checked:
     ----------
     sound : bool
         Whether nothing is wrong.
+    usable : bool
+        Whether the joint may be relied on; `reasons_against` says why not.
+    reasons_against : tuple of str
+        Why the joint is not to be relied on.
     facts, findings : tuple of str
         What it is, and what is wrong with it.
     details : dict
@@ -139,39 +148,57 @@ class Checked:
     def __init__(self, details: dict[str, Any]):
         self.details = details
         self.sound = bool(details["sound"])
+        self.usable = bool(details.get("usable", True))
+        self.reasons_against: tuple[str, ...] = tuple(details.get("reasons_against", ()))
         self.facts: tuple[str, ...] = tuple(details["facts"])
         self.findings: tuple[str, ...] = tuple(details["findings"])
 
     def __repr__(self) -> str:
-        return f"<Checked: {'sound' if self.sound else '; '.join(self.findings)}>"
+        against = "".join(f"; not to be relied on: {reason}" for reason in self.reasons_against)
+        return f"<Checked: {'sound' if self.sound else '; '.join(self.findings)}{against}>"
 
     def _repr_html_(self) -> str:
-        rows = [("wrong", finding) for finding in self.findings] + [("", fact) for fact in self.facts]
+        rows = [("wrong", finding) for finding in self.findings]
+        rows += [("not to be relied on", reason) for reason in self.reasons_against]
+        rows += [("", fact) for fact in self.facts]
         return table("sound" if self.sound else "not sound", ("", ""), rows)
 
 
-def check(what: Joint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
+def check(what: AJoint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
     """Checks a joint or an FMU, and runs the FMU's library for a moment in a process of its own.
 
     Parameters
     ----------
     what : Joint, Fmu or path
-        What to check.
+        What to check; also what was identified or predicted, of which it is the joint.
     run_library : bool
         Whether the FMU's library is run.
+
+    Returns
+    -------
+    Checked
+        What is wrong with it stands in `Checked.findings`, and `Checked.sound` is then false.
 
     Raises
     ------
     BoltedJointError
-        If something is wrong with it: the message has the findings.
+        If it cannot be read.
+
+    Warns
+    -----
+    NotUsableWarning
+        If the joint is not to be relied on.
     """
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        shown = {}
+        what = joint_of(what)
         if isinstance(what, Joint):
             path = str(Path(folder, "given.joint.json"))
             what.save(path)
+            shown[path] = what.name
         else:
-            path = path_of(what)
-        return Checked(run(["check", path, *([] if run_library else ["--no-run"])]))
+            path = path_of(what, "what", "a Joint, an Fmu or a path")
+        return Checked(run(["check", path, *([] if run_library else ["--no-run"])], shown, may_find=True))
 
 
 __all__ = ["BoltedJointError", "Checked", "Fmu", "check", "export"]

@@ -1,14 +1,16 @@
 """Frequency response functions as arrays."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._archive import unit
 from ._command import BoltedJointError
 from ._html import table
+from ._values import listed, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,8 +18,11 @@ if TYPE_CHECKING:
 #: Each is the one before it, differentiated by time.
 _QUANTITIES = ("receptance", "mobility", "accelerance")
 
+
 class Functions:
     """Frequency response functions of one structure, on one frequency axis.
+
+    Arrays are copied. What is made of functions takes it that they are not changed afterwards.
 
     Parameters
     ----------
@@ -25,7 +30,7 @@ class Functions:
         Frequencies, Hz, increasing.
     values : complex array of shape (F, R, P)
         The functions: frequency, response, reference. An axis of length 1 may be missing. NaN on all lines: not
-        measured.
+        measured. Masked entries become NaN.
     responses : sequence of R str
         DOFs of the responses, such as ``"11:+Y"``.
     references : sequence of P str
@@ -36,7 +41,7 @@ class Functions:
     coherence : array of the shape of values, optional
         Ordinary coherence γ².
     averages : float, optional
-        Averages behind every function.
+        Averages behind every function, 1 or more.
 
     Attributes
     ----------
@@ -46,7 +51,7 @@ class Functions:
     Raises
     ------
     BoltedJointError
-        If the shapes do not fit.
+        If the shapes do not fit, or averages are no number from 1 on.
     """
 
     def __init__(
@@ -60,7 +65,9 @@ class Functions:
         coherence: ArrayLike | None = None,
         averages: float | None = None,
     ):
-        self.frequency_hz: NDArray[np.float64] = np.asarray(frequency_hz, dtype=np.float64)
+        if np.ma.is_masked(frequency_hz):
+            raise BoltedJointError("frequency_hz: found masked entries, expected a number for each line")
+        self.frequency_hz: NDArray[np.float64] = np.array(frequency_hz, dtype=np.float64)
         self.responses: tuple[str, ...] = _names("responses", responses)
         self.references: tuple[str, ...] = _names("references", references)
         _known_quantity(quantity)
@@ -70,19 +77,33 @@ class Functions:
                 f"frequency_hz: found an array of shape {self.frequency_hz.shape}, expected one axis"
             )
         shape = (len(self.frequency_hz), len(self.responses), len(self.references))
-        self.values: NDArray[np.complex128] = _shaped("values", np.asarray(values, dtype=np.complex128), shape)
+        self.values: NDArray[np.complex128] = _shaped("values", _unmasked(values, np.complex128), shape)
         self.coherence: NDArray[np.float64] | None = (
-            None if coherence is None else _shaped("coherence", np.asarray(coherence, dtype=np.float64), shape)
+            None if coherence is None else _shaped("coherence", _unmasked(coherence, np.float64), shape)
         )
-        self.averages = averages
+        self.averages: float | None = None if averages is None else number("averages", averages, 1.0)
         self.magnitude_deviation: NDArray[np.float64] | None = None
 
     def __len__(self) -> int:
         """How many functions there are."""
         return int(self.measured.sum())
 
-    def __getitem__(self, pair: tuple[str, str]) -> NDArray[np.complex128]:
-        """One function over frequency, by its response and its reference."""
+    def __iter__(self) -> Iterator[tuple[str, str]]:
+        """Response and reference of each function that was measured."""
+        return iter(self.keys())
+
+    def __contains__(self, pair: object) -> bool:
+        """Whether a function was measured, by its response and its reference."""
+        return pair in self.keys()
+
+    def keys(self) -> tuple[tuple[str, str], ...]:
+        """Response and reference of each function that was measured."""
+        return tuple((self.responses[row], self.references[column]) for row, column in np.argwhere(self.measured))
+
+    def __getitem__(self, pair: tuple[str, str] | str) -> NDArray[np.complex128]:
+        """One function over frequency, by its response and its reference: ``["11:+Y", "2:+Y"]``."""
+        if not isinstance(pair, tuple | list) or len(pair) != 2:
+            raise BoltedJointError(f'found {pair!r}, expected a response and a reference such as ["11:+Y", "2:+Y"]')
         response, reference = pair
         return self.values[:, _index(self.responses, response), _index(self.references, reference)]
 
@@ -97,19 +118,27 @@ class Functions:
 
     def select(
         self,
-        responses: Sequence[str] | None = None,
-        references: Sequence[str] | None = None,
+        responses: Sequence[str] | str | None = None,
+        references: Sequence[str] | str | None = None,
         from_hz: float = 0.0,
         to_hz: float = np.inf,
     ) -> "Functions":
-        """Some of the functions, on some of the lines."""
-        responses = self.responses if responses is None else tuple(responses)
-        references = self.references if references is None else tuple(references)
+        """Some of the functions, on some of the lines.
+
+        Parameters
+        ----------
+        responses, references : sequence of str, or str
+            Their DOFs, or one DOF; all if they are left out.
+        from_hz, to_hz : float
+            First and last frequency, Hz.
+        """
+        responses = self.responses if responses is None else listed("responses", responses)
+        references = self.references if references is None else listed("references", references)
         lines = (self.frequency_hz >= from_hz) & (self.frequency_hz <= to_hz)
         rows = np.array([_index(self.responses, name) for name in responses], dtype=np.intp)
         columns = np.array([_index(self.references, name) for name in references], dtype=np.intp)
         part = np.ix_(np.flatnonzero(lines), rows, columns)
-        return Functions(
+        found = Functions(
             self.frequency_hz[lines],
             self.values[part],
             responses,
@@ -118,6 +147,9 @@ class Functions:
             coherence=None if self.coherence is None else self.coherence[part],
             averages=self.averages,
         )
+        if self.magnitude_deviation is not None:
+            found.magnitude_deviation = self.magnitude_deviation[part]
+        return found
 
     def as_quantity(self, quantity: str) -> "Functions":
         """The same functions as another quantity.
@@ -133,7 +165,10 @@ class Functions:
             return self
         lines = self.frequency_hz > 0.0 if power < 0 else np.full(self.frequency_hz.shape, True)
         differentiated = (2j * np.pi * self.frequency_hz[lines]) ** power
-        return self._with(self.values[lines] * differentiated[:, None, None], lines=lines, quantity=quantity)
+        found = self._with(self.values[lines] * differentiated[:, None, None], lines=lines, quantity=quantity)
+        if self.magnitude_deviation is not None:
+            found.magnitude_deviation = self.magnitude_deviation[lines] * np.abs(differentiated)[:, None, None]
+        return found
 
     def _with(
         self, values: NDArray[np.complex128], *, lines: NDArray[np.bool_] | None = None, quantity: str | None = None
@@ -153,13 +188,25 @@ class Functions:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file that the command line reads: a NumPy archive (``.npz``), or a table (``.csv``).
 
+        Both state SI units. An archive has `magnitude_deviation` too, for `read` alone.
+
+        Parameters
+        ----------
+        path : path
+            The file to write; its ending says which kind.
+
         Raises
         ------
         BoltedJointError
-            If some function between the responses and the references was not measured, for which an archive has no
-            word.
+            If the path ends otherwise, or if some function between the responses and the references was not measured,
+            for which an archive has no word.
         """
-        if os.fspath(path).endswith(".csv"):
+        ending = os.path.splitext(path)[1].lower()
+        if ending not in (".npz", ".csv"):
+            raise BoltedJointError(
+                f"{os.fspath(path)}: found the ending {ending!r}, expected .npz (NumPy archive) or .csv (table)"
+            )
+        if ending == ".csv":
             self._save_table(path)
             return
         for row, column in np.argwhere(~self.measured):
@@ -174,7 +221,14 @@ class Functions:
             "reference": list(self.references),
             "axes": "frequency,response,reference",
             "quantity": self.quantity,
+            "units": [[unit(self.quantity, *pair) for pair in row] for row in self._pairs()],
         }
+        (alone, *others) = dict.fromkeys(label for row in arrays["units"] for label in row) or [""]
+        if alone and not others:
+            # what the command line reads, which has one word for all functions
+            arrays["unit"] = alone
+        if self.magnitude_deviation is not None:
+            arrays["magnitude_deviation"] = self.magnitude_deviation
         if self.coherence is not None:
             arrays["coherence"] = self.coherence
         if self.averages is not None:
@@ -182,13 +236,17 @@ class Functions:
         with open(path, "wb") as file:
             np.savez(file, **arrays)
 
+    def _pairs(self) -> list[list[tuple[str, str]]]:
+        return [[(response, reference) for reference in self.references] for response in self.responses]
+
     def _save_table(self, path: str | os.PathLike[str]) -> None:
         """A table of those functions that were measured; 17 digits tell every number to the bit."""
         names, columns = ["frequency [Hz]"], [self.frequency_hz]
         for row, column in np.argwhere(self.measured):
             pair = f"{self.responses[row]}/{self.references[column]}"
             values = self.values[:, row, column]
-            names += [f"{pair} real", f"{pair} imaginary"]
+            label = unit(self.quantity, self.responses[row], self.references[column])
+            names += [f"{pair} real [{label}]", f"{pair} imaginary [{label}]"]
             columns += [values.real, values.imag]
             if self.coherence is not None:
                 names.append(f"{pair} coherence")
@@ -200,11 +258,22 @@ class Functions:
         table = np.column_stack(columns)
         np.savetxt(path, table, fmt="%.17g", delimiter=",", header=head, comments="", encoding="utf-8")
 
-    def plot(self, **options: Any) -> "Figure":
-        """Draws magnitude and phase over frequency; see `bolted_joint._plot.functions`."""
+    def plot(self, *, most: int = 6) -> "Figure":
+        """Draws magnitude and phase over frequency.
+
+        Parameters
+        ----------
+        most : int
+            At most so many functions are drawn, the strongest ones.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
-        return _plot.functions({"": self}, **options)
+        return _plot.functions({"": self}, most)
 
     def _range(self) -> str:
         return f"{self.frequency_hz[0]:g} to {self.frequency_hz[-1]:g} Hz" if len(self.frequency_hz) else ""
@@ -241,6 +310,14 @@ def _index(names: tuple[str, ...], name: str) -> int:
         return names.index(name)
     except ValueError:
         raise BoltedJointError(f"found {name!r}, expected one of {', '.join(names)}") from None
+
+
+def _unmasked(values: ArrayLike, kind: Any) -> NDArray[Any]:
+    """Values in an array of their own, with NaN where they are masked."""
+    found = np.array(values, dtype=kind)
+    if isinstance(values, np.ma.MaskedArray):
+        found[np.ma.getmaskarray(values)] = np.nan
+    return found
 
 
 def _shaped(argument: str, array: NDArray[Any], shape: tuple[int, int, int]) -> NDArray[Any]:

@@ -1,19 +1,20 @@
 """`identify`: a study becomes a joint."""
 
+import os
 import tempfile
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._command import NotUsableWarning, run
+from ._command import BoltedJointError, NotUsableWarning, in_page, run
 from ._functions import Functions
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints
-from ._respond import respond
-from ._study import AnyStudy, as_file, tables_of
+from ._respond import answered
+from ._study import AnyStudy, Study, as_file, settled, tables_of
+from ._values import whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +37,7 @@ class Identification:
         The report: one page with everything that was measured, assumed and found. Empty where none was asked for.
     """
 
-    def __init__(self, study: AnyStudy, joints: dict[str, Joint], details: dict[str, Any], report_html: str):
+    def __init__(self, study: Study, joints: dict[str, Joint], details: dict[str, Any], report_html: str):
         self._study = study
         self.joints = joints
         self.details = details
@@ -89,34 +90,44 @@ class Identification:
             If no functions were measured, as for laps.
         """
         study = with_joints(self._study, self.joints, assembly)
-        with warnings.catch_warnings():
-            # `identify` has told it
-            warnings.simplefilter("ignore", NotUsableWarning)
-            if study["method"] == "frf-space":
-                if step_hz is None and not any("frf" in part for part in study.values() if isinstance(part, Mapping)):
-                    # nothing else says where the lines are
-                    step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
-                response = respond(study, step_hz=step_hz)
-                assert isinstance(response, Functions)
-                return response
-            return respond(study, self.joints, step_hz=step_hz)
+        joints = None if study["method"] == "frf-space" else self.joints
+        has_lines = joints is not None or any("frf" in part for part in study.values() if isinstance(part, Mapping))
+        if step_hz is None and not has_lines:
+            # nothing else says where the lines are
+            step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
+        # that the result is not to be relied on `identify` has told
+        response = answered(study, joints, step_hz=step_hz, quiet=NotUsableWarning)
+        assert isinstance(response, Functions)
+        return response
 
-    def plot(self, assembly: int = 0, **options: Any) -> "Figure":
+    def plot(self, assembly: int = 0, *, most: int = 6) -> "Figure":
         """Draws what was measured and what the identified joint makes of it.
 
-        These are functions of one of the study's assemblies, numbered from 0 on (see `bolted_joint._plot.functions` for
-        `options`); of laps natural frequencies over the torque, or backbones and resonances.
+        These are functions of one of the study's assemblies; of laps natural frequencies over the torque, or backbones
+        and resonances.
+
+        Parameters
+        ----------
+        assembly : int
+            Which of the study's assemblies, from 0 on.
+        most : int
+            At most so many functions are drawn, the strongest ones.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
         """
         from . import _plot
 
-        method = tables_of(self._study)["method"]
+        method = self._study["method"]
         if method == "lap-update":
             return _plot.frequencies(self.details["torques"])
         if method == "lap-response":
             return _plot.runs(self.details["backbones"], self.details["predictions"])
-        of = f", assembly {assembly}" if len(assemblies(tables_of(self._study))) > 1 else ""
+        of = f", assembly {assembly}" if len(assemblies(self._study)) > 1 else ""
         sets = {f"measured{of}": self.measured(assembly), f"identified{of}": self.regenerated(assembly=assembly)}
-        return _plot.functions(sets, **options)
+        return _plot.functions(sets, most)
 
     def __repr__(self) -> str:
         return f"<Identification: {', '.join(repr(joint) for joint in self.joints.values())}>"
@@ -143,7 +154,7 @@ def identify(
     bootstrap : int, optional
         Repeat the estimate on so many data sets drawn from the fitted model.
     seed : int, optional
-        Seed of the bootstrap.
+        Seed of the bootstrap, which has to be asked for.
     rivals : bool
         Whether the joint model is compared with others.
     report : bool
@@ -163,20 +174,36 @@ def identify(
     NotUsableWarning
         If the result is not to be relied on.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    # results tell of the study as it was
+    given = settled(study) if isinstance(study, Mapping) else study
+    with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
-        if bootstrap is not None:
-            arguments += ["--bootstrap", str(bootstrap)]
-        if seed is not None:
-            arguments += ["--seed", str(seed)]
+        arguments += repeated(bootstrap, seed)
         if not rivals:
             arguments += ["--no-rivals"]
         if report:
             arguments += ["--report", str(page)]
-        details = run(arguments, hidden)
-        html = page.read_text(encoding="utf-8") if report else ""
-        return found_in(Path(folder), "identified", study, details, html)
+        shown |= {str(output): "the joint", folder + os.sep: ""}
+        details = run(arguments, shown)
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        return found_in(Path(folder), "identified", given, details, html)
+
+
+def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
+    """The options of a bootstrap.
+
+    Raises
+    ------
+    BoltedJointError
+        For a seed without a bootstrap, and for what is no whole number.
+    """
+    if bootstrap is None:
+        if seed is not None:
+            raise BoltedJointError(f"seed: found {seed!r} without bootstrap, expected both; nothing else is drawn")
+        return []
+    options = ["--bootstrap", str(whole("bootstrap", bootstrap, 1))]
+    return options if seed is None else [*options, "--seed", str(whole("seed", seed, 0))]
 
 
 def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str) -> Identification:
@@ -185,4 +212,4 @@ def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], 
         file.name.removeprefix(stem).removesuffix("joint.json").strip("."): Joint.read(file)
         for file in sorted(folder.glob("*.joint.json"))
     }
-    return Identification(study, joints, details, html)
+    return Identification(tables_of(study), joints, details, html)

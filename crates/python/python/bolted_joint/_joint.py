@@ -4,17 +4,17 @@ import copy
 import json
 import os
 import tempfile
-import warnings
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._command import BoltedJointError, run
+from ._command import BoltedJointError, path_of, run
 from ._html import table, with_deviation
-from ._values import checked
+from ._values import checked, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,11 +42,21 @@ class Joint:
     """
 
     def __init__(self, data: dict[str, Any]):
+        if isinstance(data, str | os.PathLike):
+            path = os.fspath(data)
+            raise BoltedJointError(
+                f"data: found the path {path!r}, expected a dictionary; Joint.read({path!r}) reads a file"
+            )
+        if not isinstance(data, Mapping):
+            raise BoltedJointError(
+                f"data: found an object of type {type(data).__name__}, expected what a joint file holds: a dictionary"
+            )
         self.data = data
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Joint":
         """Reads a joint file; `check` says more of what is wrong with one."""
+        path_of(path)
         try:
             data = json.loads(Path(path).read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
@@ -109,15 +119,13 @@ class Joint:
         """
         if not self.preloads and preload_n_m is None:
             return Joint(copy.deepcopy(self.data))
-        preload = self.nominal_preload if preload_n_m is None else float(preload_n_m)
+        preload = self.nominal_preload if preload_n_m is None else number("preload_n_m", preload_n_m)
         with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
             given, fmu = Path(folder, "given.joint.json"), Path(folder, "frozen.fmu")
             self.save(given)
-            with warnings.catch_warnings():
-                # what is wrong with the joint is told where it is used
-                warnings.simplefilter("ignore")
-                arguments = ["export", str(given), "-o", str(fmu), "--preload", repr(preload)]
-                run([*arguments, "--allow-active", "--unusable"], folder + os.sep)
+            arguments = ["export", str(given), "-o", str(fmu), "--preload", repr(preload)]
+            # what is wrong with the joint is told where it is used
+            run([*arguments, "--allow-active", "--unusable"], {str(given): self.name}, quiet=Warning)
             with zipfile.ZipFile(fmu) as archive:
                 return Joint(json.loads(archive.read("resources/joint.json")))
 
@@ -179,9 +187,29 @@ class Joint:
         return tuple(self.data.get("status", {}).get("reasons", ()))
 
     def dynamic_stiffness(self, frequency_hz: ArrayLike) -> NDArray[np.complex128]:
-        """K + iωC at each frequency (Hz): shape (F, N, N)."""
+        """K + iωC at each frequency.
+
+        Parameters
+        ----------
+        frequency_hz : float or array of shape (F,)
+            Frequencies, Hz.
+
+        Returns
+        -------
+        complex array of shape (N, N) or (F, N, N)
+            N/m, N/rad and N·m/rad; of one number the one matrix.
+
+        Raises
+        ------
+        BoltedJointError
+            For an array of another shape, or a joint over the preload.
+        """
         omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=np.float64)
-        return self.stiffness + 1j * omega[:, None, None] * self.damping
+        if omega.ndim > 1:
+            raise BoltedJointError(
+                f"frequency_hz: found an array of shape {omega.shape}, expected a number or an array of one axis"
+            )
+        return self.stiffness + 1j * omega[..., None, None] * self.damping
 
     def draw(self, rng: np.random.Generator) -> "Joint":
         """A joint drawn from the normal distribution of its unknowns, those at all preloads at once.
@@ -194,10 +222,23 @@ class Joint:
         Raises
         ------
         BoltedJointError
-            If the file has no covariance.
+            If the file has no covariance, or one of zeros, as that of a joint with friction alone.
         """
         covariance = self.covariance
         places = self._places()
+        if covariance is None or not covariance.any():
+            found = "no covariance" if covariance is None else "a covariance of zeros"
+            laws = ", ".join(dict.fromkeys(law["law"] for _, law in self._friction()))
+            if laws:
+                raise BoltedJointError(
+                    f"{self.name}: found {found} of the entries of K and C, and friction ({laws}), whose uncertainty is "
+                    "not in the covariance; expected one to draw from; draw the parameters of the friction from what is "
+                    "known of them, and set them in data"
+                )
+            if covariance is not None:
+                raise BoltedJointError(
+                    f"{self.name}: found a covariance of zeros, expected one to draw from: each draw would be the joint"
+                )
         if covariance is None or places is None:
             at = " at all preloads" if self.preloads else ""
             raise BoltedJointError(
@@ -213,11 +254,36 @@ class Joint:
                 entries[column][row] = entries[row][column]
         return Joint(data)
 
-    def plot(self, **options: Any) -> "Figure":
-        """Draws K + iωC over frequency, over the preload at each of its `preloads`; see `bolted_joint._plot.joints`."""
+    def plot(
+        self, from_hz: float | None = None, to_hz: float | None = None, preload_n_m: float | None = None
+    ) -> "Figure":
+        """Draws K + iωC over frequency, over the preload at each of its `preloads`.
+
+        Of a joint that has friction alone loops of load over displacement are drawn, unless frequencies are given.
+
+        Parameters
+        ----------
+        from_hz, to_hz : float, optional
+            First and last frequency, Hz; if they are left out 1 Hz, and that up to which the joint was observed, or
+            1000 Hz.
+        preload_n_m : float, optional
+            Preload at which a joint over the preload is drawn, N·m; at those of its table if it is left out, of which
+            at most six are drawn.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
-        return _plot.joints([self], **options)
+        if from_hz is None and to_hz is None and self._has_friction_alone():
+            from ._loops import loops_of
+
+            loops = loops_of(self if preload_n_m is None else self.at_preload(preload_n_m))
+            if loops is not None:
+                return _plot.response(loops, "load")
+        return _plot.joints([self], 1.0 if from_hz is None else from_hz, to_hz, preload_n_m)
 
     def __repr__(self) -> str:
         over = f"; at preloads of {_listed(self.preloads)} N·m" if self.preloads else ""
@@ -226,12 +292,16 @@ class Joint:
     def _repr_html_(self) -> str:
         against = "".join(f"; not to be relied on: {reason}" for reason in self.reasons_against)
         if not self.preloads:
-            rows = self._rows(None) + self._laws()
+            rows = self._rows(None) + [row for _, row in self._laws()]
             return table(self.name + against, ("entry", "K", "C"), rows)
         over = f"; over the preload, nominally {self.nominal_preload:g} N·m"
+        laws = self._laws()
         rows = [
-            (f"{preload:g}", *row) for entry, preload in enumerate(self.preloads) for row in self._rows(entry)
+            (f"{preload:g}", *row)
+            for entry, preload in enumerate(self.preloads)
+            for row in [*self._rows(entry), *(row for at, row in laws if at == entry)]
         ]
+        rows += [(f"{self.nominal_preload:g}", *row) for at, row in laws if at is None]
         return table(self.name + over + against, ("preload, N·m", "entry", "K", "C"), rows)
 
     def _rows(self, entry: int | None) -> list[tuple[str, ...]]:
@@ -249,16 +319,31 @@ class Joint:
                 shown.append((f"{first}, {second}", *cells))
         return shown
 
-    def _laws(self) -> list[tuple[str, ...]]:
-        """Laws that remember, which stand beside K and C."""
-        laws = self.data["joint"].get("friction", [])
+    def _friction(self) -> list[tuple[int | None, dict[str, Any]]]:
+        """Laws that remember, beside K and C, each with its place in the table of preloads if there is one."""
+        tables = self._table().get("friction") or ()
+        found: list[tuple[int | None, dict[str, Any]]] = []
+        found += [(entry, law) for entry, laws in enumerate(tables) for law in laws]
+        # beside a table of preloads these are stated at the nominal one
+        return found or [(None, law) for law in self.data["joint"].get("friction") or ()]
+
+    def _has_friction_alone(self) -> bool:
+        """Whether K and C are zero and laws that remember are all that there is."""
+        of = self._table() or self.data["joint"]
+        return bool(self._friction()) and not any(np.any(of.get(matrix, 0.0)) for matrix in _MATRICES)
+
+    def _laws(self) -> list[tuple[int | None, tuple[str, ...]]]:
+        """Rows of the laws that remember, with their places in the table of preloads."""
         return [
             (
-                f"{law['dof']}, {law['law']}",
-                "; ".join(f"{key} {value:.6g}" for key, value in law.items() if key not in ("dof", "law")),
-                "",
+                entry,
+                (
+                    f"{law['dof']}, {law['law']}",
+                    "; ".join(f"{key} {_short(value)}" for key, value in law.items() if key not in ("dof", "law")),
+                    "",
+                ),
             )
-            for law in laws
+            for entry, law in self._friction()
         ]
 
     def _table(self) -> dict[str, Any]:
@@ -315,6 +400,27 @@ class Joint:
                             names[name + ending] = (matrix, entry, row, column)
         places = [names.get(name) for name in self.unknowns]
         return None if None in places else places  # type: ignore[return-value]
+
+
+class HasJoint(Protocol):
+    """What was identified or predicted."""
+
+    @property
+    def joint(self) -> Joint:
+        """The joint."""
+
+
+#: What is taken for a joint that is at hand.
+AJoint = Joint | HasJoint
+
+
+def joint_of(what: Any) -> Any:
+    """The joint of what was identified or predicted; anything else as it is."""
+    return what if isinstance(what, Joint) or not isinstance(getattr(what, "joint", None), Joint) else what.joint
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, int | float) else str(value)
 
 
 def _listed(preloads: tuple[float, ...]) -> str:

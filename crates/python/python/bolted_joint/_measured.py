@@ -1,7 +1,6 @@
 """What a study says was measured on its assemblies, and the study of one assembly with the joint that was found."""
 
 import os
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,16 +15,15 @@ def functions_of(study: AnyStudy, assembly: int) -> Functions:
     """The functions of one of a study's assemblies as receptances in SI units, with all that the study says of them."""
     tables = tables_of(study)
     table = assemblies(tables)[_place(tables, assembly)]
-    with warnings.catch_warnings():
-        # of units that a file does not state `identify` has told
-        warnings.simplefilter("ignore")
-        return together(
-            [one if isinstance(one, Functions) else tables.folder / one for one in _listed(table["frf"])],
-            quantity=table.get("quantity"),
-            averages=table.get("averages"),
-            units=table.get("units"),
-            coherence=[tables.folder / path for path in _listed(table.get("coherence", []))],
-        )
+    return together(
+        [one if isinstance(one, Functions) else tables.folder / one for one in _listed(table["frf"])],
+        quantity=table.get("quantity"),
+        averages=table.get("averages"),
+        units=table.get("units"),
+        coherence=[tables.folder / path for path in _listed(table.get("coherence", []))],
+        # `identify` has told it
+        is_quiet=True,
+    )
 
 
 def with_joints(study: AnyStudy, joints: Mapping[str, Joint], assembly: int) -> Study:

@@ -32,13 +32,12 @@ def functions(sets: "Mapping[str, Functions]", most: int = MOST) -> "Figure":
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
     first = next(iter(sets.values()))
     pairs = _strongest(first, most, list(sets.values())[1:])
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, height_ratios=(3, 1), figsize=(8, 5), layout="constrained"
-    )
+    figure = Picture(figsize=(8, 5), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     for number, (label, given) in enumerate(sets.items()):
         one = given.as_quantity(first.quantity)
         is_compared = len(sets) > 1
@@ -83,14 +82,15 @@ def joints(
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
     joints = [own for joint in joints for own in _at_preloads(joint, preload_n_m)]
     first = joints[0]
     end = to_hz or (first.data.get("validity") or {}).get("frequency_hz", (0.0, 1000.0))[1]
     frequency_hz = np.linspace(from_hz, end, 200)
     size = len(first.dofs)
-    figure, panels = plt.subplots(1, size, squeeze=False, figsize=(4 * size, 3.5), layout="constrained")
+    figure = Picture(figsize=(4 * size, 3.5), layout="constrained")
+    panels = figure.subplots(1, size, squeeze=False)
     for place, axes in enumerate(panels[0]):
         for color, joint in enumerate(joints):
             values = joint.dynamic_stiffness(frequency_hz)[:, place, place]
@@ -126,7 +126,7 @@ def response(table: "Response", up: str | None = None, across: str | None = None
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
     names = [name for name in table.columns if name != "level"]
     across = names[0] if across is None else across
@@ -137,7 +137,8 @@ def response(table: "Response", up: str | None = None, across: str | None = None
         others = [name for name in names if name != across and units[name] not in given]
         up = next(iter(others), across).removesuffix(" real")
     is_complex = up not in table.columns and f"{up} real" in table.columns
-    figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
+    figure = Picture(figsize=(8, 4), layout="constrained")
+    axes = figure.subplots()
     levels = table["level"] if "level" in table.columns else np.zeros(len(table))
     for lap, level in dict.fromkeys(zip(table.laps.tolist(), levels.tolist(), strict=True)):
         rows = (table.laps == lap) & (levels == level)
@@ -174,14 +175,13 @@ def comparison(found: "Comparison") -> "Figure":
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
     count = len(found.rows)
     columns = min(count, 6)
     lines = -(-count // columns)
-    figure, panels = plt.subplots(
-        lines, columns, squeeze=False, figsize=(2.2 * columns, 2.4 * lines + 0.5), layout="constrained"
-    )
+    figure = Picture(figsize=(2.2 * columns, 2.4 * lines + 0.5), layout="constrained")
+    panels = figure.subplots(lines, columns, squeeze=False)
     for place, axes in enumerate(panels.flat):
         if place >= count:
             axes.set_visible(False)
@@ -211,9 +211,10 @@ def damping_over_amplitude(result: "Mapping[str, Any]") -> "Figure":
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
-    figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
+    figure = Picture(figsize=(6, 4), layout="constrained")
+    axes = figure.subplots()
     for mode in result["modes"]:
         points = [one for one in result["amplitudes"] if one["mode"] == mode["number"]]
         if points:
@@ -238,9 +239,10 @@ def frequencies(torques: "Sequence[Mapping[str, Any]]") -> "Figure":
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
-    figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
+    figure = Picture(figsize=(6, 4), layout="constrained")
+    axes = figure.subplots()
     # a study of one assembly need not state its torque
     known = all(one["torque_n_m"] is not None for one in torques)
     across = [one["torque_n_m"] if known else number for number, one in enumerate(torques)]
@@ -267,9 +269,10 @@ def runs(backbones: "Sequence[Mapping[str, Any]]", resonances: "Sequence[Mapping
     -------
     matplotlib.figure.Figure
     """
-    import matplotlib.pyplot as plt
+    from ._picture import Picture
 
-    figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(8, 5), layout="constrained")
+    figure = Picture(figsize=(8, 5), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True)
     for number, one in enumerate(backbones):
         for axes, key in [(above, "frequency_hz"), (below, "damping_ratio")]:
             points = [(point["amplitude_m"], point[key]) for point in one["points"] if point.get(key) is not None]

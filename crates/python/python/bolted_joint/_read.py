@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _matlab73, _native
+from . import _archive, _matlab73, _native
 from ._command import BoltedJointError, path_of, run
 from ._functions import Functions
+from ._values import number
 
 #: SI units in one unit, by the names that studies and files have for them.
 _LENGTHS = {
@@ -86,9 +87,11 @@ def together(
     averages: float | None = None,
     units: Mapping[str, str] | None = None,
     coherence: Sequence[str | os.PathLike[str]] = (),
+    is_quiet: bool = False,
 ) -> Functions:
-    """As `read`, of files and of functions that are arrays already."""
-    factors = None if units is None else _unit_factors(units)
+    """As `read`, of files and of functions that are arrays already; of units that are not stated it may be quiet."""
+    factors = None if units is None else unit_factors(units)
+    averages = None if averages is None else number("averages", averages, 1.0)
     curves: list[_Curve] = []
     coherences: list[_Curve] = []
     stated = averages
@@ -97,7 +100,7 @@ def together(
             found = _curves_of(source, quantity, factors)
         else:
             found = _curves(source, quantity, averages, factors)
-            if not found.units_are_stated:
+            if not (found.units_are_stated or is_quiet or _archive.states_si(source)):
                 message = f"{os.fspath(source)}: the file states no units; SI is assumed"
                 warnings.warn(message, stacklevel=3)
             if not found.functions:
@@ -112,7 +115,10 @@ def together(
         coherences += found.coherences
         stated = found.averages if stated is None else stated
     names = ", ".join("functions" if isinstance(one, Functions) else os.fspath(one) for one in sources)
-    return _of_curves(names, curves, coherences, stated)
+    functions = _of_curves(names, curves, coherences, stated)
+    if len(sources) == 1 and not isinstance(sources[0], Functions) and quantity is None and units is None:
+        functions.magnitude_deviation = _archive.deviation(sources[0], functions)
+    return functions
 
 
 #: Response, reference, frequencies and values, as they come from a file.
@@ -169,9 +175,7 @@ def _curves_of(functions: Functions, quantity: str | None, units: tuple[float, f
 
 def _stated_units(source: str | os.PathLike[str], path: str | os.PathLike[str]) -> tuple[float, float]:
     """SI units in the length and the force that a file states, where it states one of each."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        told: list[str] = run(["show", path_of(source)])[0]["facts"]["units"]
+    told: list[str] = run(["show", path_of(source)], quiet=Warning)[0]["facts"]["units"]
     statements = [one for one in told if not one.startswith("understood as ")]
     lengths, forces = set(), set()
     for statement in statements:
@@ -232,7 +236,7 @@ def _of_curves(
     return Functions(frequency_hz, values, responses, references, coherence=coherence, averages=averages)
 
 
-def _unit_factors(units: Mapping[str, str]) -> tuple[float, float]:
+def unit_factors(units: Mapping[str, str]) -> tuple[float, float]:
     """SI units in the length and in the force that a study names."""
     found = []
     for key, known, names in [
@@ -265,7 +269,9 @@ def _unsigned(response: str, reference: str) -> tuple[str, str]:
 def _paths(
     argument: str, paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 ) -> list[str | os.PathLike[str]]:
-    found = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    found = list(paths) if isinstance(paths, Iterable) and not isinstance(paths, str | os.PathLike) else [paths]
+    for path in found:
+        path_of(path, argument, "a path or a list of paths")
     if not found:
         raise BoltedJointError(f"{argument}: found an empty list, expected at least one file")
     return found

@@ -4,7 +4,7 @@ import csv
 import os
 import re
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -14,15 +14,16 @@ from numpy.typing import NDArray
 from ._command import BoltedJointError, path_of, run
 from ._functions import Functions
 from ._html import table
-from ._joint import Joint
-from ._read import read
+from ._joint import AJoint, Joint, joint_of
+from ._read import together
 from ._study import AnyStudy, as_file
+from ._values import listed, number, one_of, whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: What `respond` takes for joints: one for all bolts, or one for each by its name.
-AnyJoint = Joint | str | os.PathLike[str] | Mapping[str, Joint]
+AnyJoint = AJoint | str | os.PathLike[str] | Mapping[str, Joint]
 
 
 class Response:
@@ -76,9 +77,21 @@ class Response:
         """How many rows there are."""
         return len(self.values)
 
-    def __getitem__(self, column: str) -> NDArray[np.float64]:
+    def __iter__(self) -> Iterator[str]:
+        """The names of the columns."""
+        return iter(self.columns)
+
+    def __contains__(self, column: object) -> bool:
+        """Whether there is a column of this name."""
+        return column in self.columns
+
+    def keys(self) -> tuple[str, ...]:
+        """The names of the columns."""
+        return self.columns
+
+    def __getitem__(self, column: str | tuple[str, str]) -> NDArray[np.float64]:
         """A column by its name."""
-        if column not in self.columns:
+        if not isinstance(column, str) or column not in self.columns:
             raise BoltedJointError(f"found {column!r}, expected one of {', '.join(self.columns)}")
         values: NDArray[np.float64] = self.values[:, self.columns.index(column)]
         return values
@@ -104,7 +117,19 @@ class Response:
         return Response(self.columns, self.units, self.values[rows], self.laps[rows], self.details)
 
     def plot(self, up: str | None = None, across: str | None = None) -> "Figure":
-        """Draws one column over another, a curve for each lap and level; see `bolted_joint._plot.response`."""
+        """Draws one column over another, a curve for each lap and level.
+
+        Parameters
+        ----------
+        up, across : str, optional
+            Columns; of a complex number its name, without ``real``, for the magnitude. If they are left out, the first
+            column that is no level, and the one after it that is no load over time.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
         return _plot.response(self, up, across)
@@ -178,16 +203,19 @@ def respond(
     noise_level: float = 0.01,
     noise_samples: int = 4096,
     seed: int = 1,
+    deviations: bool = False,
+    report: str | os.PathLike[str] | None = None,
 ) -> Functions: ...
 
 
 @overload
 def respond(
     study: AnyStudy,
+    joint: None = None,
     *,
     plan: Literal[True],
     add: int | None = None,
-    wanted: Sequence[str] = (),
+    wanted: Sequence[str] | str = (),
     step_hz: float | None = None,
 ) -> Plan: ...
 
@@ -195,8 +223,13 @@ def respond(
 @overload
 def respond(
     study: AnyStudy,
+    joint: AnyJoint | None = None,
     *,
     step_hz: float | None = None,
+    noise: str | None = None,
+    noise_level: float = 0.01,
+    noise_samples: int = 4096,
+    seed: int = 1,
     deviations: bool = False,
     report: str | os.PathLike[str] | None = None,
 ) -> Functions | Response: ...
@@ -215,7 +248,7 @@ def respond(
     report: str | os.PathLike[str] | None = None,
     plan: bool = False,
     add: int | None = None,
-    wanted: Sequence[str] = (),
+    wanted: Sequence[str] | str = (),
 ) -> Functions | Response | Plan:
     """What a test of an assembly would measure, how laps or a whole assembly answer, or what a test will tell.
 
@@ -246,7 +279,7 @@ def respond(
         Whether to tell how well the test of a study of method ``frf-space`` will determine its joints.
     add : int, optional
         How many sensors or impacts are added to the planned test, one after the other.
-    wanted : sequence of str
+    wanted : sequence of str, or str
         Numbers for which they are chosen, such as ``["k_x", "c_rz"]``; all if it is empty.
 
     Returns
@@ -259,7 +292,41 @@ def respond(
     BoltedJointError
         If study or joint cannot be used.
     """
-    with as_file(study) as (path, hidden), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    return answered(
+        study,
+        joint,
+        step_hz=step_hz,
+        noise=noise,
+        noise_level=noise_level,
+        noise_samples=noise_samples,
+        seed=seed,
+        deviations=deviations,
+        report=report,
+        plan=plan,
+        add=add,
+        wanted=wanted,
+    )
+
+
+def answered(
+    study: AnyStudy,
+    joint: AnyJoint | None = None,
+    *,
+    step_hz: float | None = None,
+    noise: str | None = None,
+    noise_level: float = 0.01,
+    noise_samples: int = 4096,
+    seed: int = 1,
+    deviations: bool = False,
+    report: str | os.PathLike[str] | None = None,
+    plan: bool = False,
+    add: int | None = None,
+    wanted: Sequence[str] | str = (),
+    quiet: type[Warning] | None = None,
+) -> Functions | Response | Plan:
+    """As `respond`, which the user calls, without warnings of one type."""
+    with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        shown[folder + os.sep] = ""
         output, beside = Path(folder, "responses.csv"), Path(folder, "deviations.csv")
         arguments = ["respond", path]
         if plan:
@@ -267,42 +334,52 @@ def respond(
         else:
             arguments += ["-o", str(output)]
         if joint is not None:
-            arguments += ["--joint", _joint_file(joint, Path(folder))]
+            arguments += ["--joint", _joint_file(joint, Path(folder), shown)]
         if step_hz is not None:
-            arguments += ["--step", repr(float(step_hz))]
+            arguments += ["--step", repr(number("step_hz", step_hz))]
         if deviations:
             arguments += ["--deviations", str(beside)]
         if report is not None:
-            arguments += ["--report", path_of(report)]
+            arguments += ["--report", path_of(report, "report")]
         if add is not None:
-            arguments += ["--add", str(add)]
+            arguments += ["--add", str(whole("add", add, 0))]
         if wanted:
-            arguments += ["--for", ",".join(wanted)]
+            arguments += ["--for", ",".join(listed("wanted", wanted))]
         if noise is not None:
-            arguments += ["noise", noise, "--level", repr(float(noise_level))]
-            arguments += ["--samples", str(noise_samples), "--seed", str(seed)]
-        details: dict[str, Any] = run(arguments, hidden)
+            arguments += ["noise", one_of("noise", noise, ("frf", "response"))]
+            arguments += ["--level", repr(number("noise_level", noise_level))]
+            arguments += ["--samples", str(whole("noise_samples", noise_samples, 1))]
+            arguments += ["--seed", str(whole("seed", seed, 0))]
+        details: dict[str, Any] = run(arguments, shown, quiet=quiet, stacklevel=4)
         if plan:
             return Plan(details)
         if "functions" not in details:
             return Response.of_table(output, details)
-        functions = read(output)
+        functions = together([output])
         if deviations:
             functions.magnitude_deviation = _beside(functions, Response.of_table(beside, details))
         return functions
 
 
-def _joint_file(joint: AnyJoint, folder: Path) -> str:
+def _joint_file(joint: AnyJoint, folder: Path, shown: dict[str, str]) -> str:
     """The file of a joint, or the name that those of several bolts have in common."""
     if isinstance(joint, str | os.PathLike):
         return path_of(joint)
+    joint = joint_of(joint)
     joints = {"": joint} if isinstance(joint, Joint) else joint
     if not isinstance(joints, Mapping) or not all(isinstance(one, Joint) for one in joints.values()):
         raise BoltedJointError(
             f"joint: found {type(joint).__name__}, expected a Joint, its file, or a dictionary with that of each bolt"
         )
+    names = {}
     for bolt, one in joints.items():
-        one.save(folder / f"given{'.' if bolt else ''}{bolt}.joint.json")
+        file = folder / f"given{'.' if bolt else ''}{bolt}.joint.json"
+        one.save(file)
+        names[str(file)] = one.name
+    others = dict(shown)
+    shown.clear()
+    # a joint's name stands before the folder that its file is in
+    shown.update(names | others)
     return str(folder / "given.joint.json")
 
 

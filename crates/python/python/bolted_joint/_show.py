@@ -9,16 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._command import BoltedJointError, path_of, run
+from ._command import BoltedJointError, in_page, path_of, run
 from ._functions import Functions
 from ._html import table
-from ._joint import Joint
+from ._joint import AJoint, Joint, joint_of
+from ._values import number, one_of, whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+#: Tools that joints are converted for.
+_TOOLS = ("nastran", "abaqus", "calculix", "ansys", "matlab", "modelica")
+
 #: What `show` tells of.
-Shown = str | os.PathLike[str] | Joint | Functions
+Shown = str | os.PathLike[str] | AJoint | Functions
 
 
 class Look:
@@ -80,6 +84,7 @@ def show(what: Shown, *, page: bool = False) -> Look:
         If it is none of these, or cannot be read.
     """
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+        what = joint_of(what)
         if isinstance(what, Functions):
             path = str(Path(folder, "functions.npz" if what.measured.all() else "functions.csv"))
             what.save(path)
@@ -87,12 +92,12 @@ def show(what: Shown, *, page: bool = False) -> Look:
             path = str(Path(folder, "given.joint.json"))
             what.save(path)
         else:
-            path = path_of(what)
+            path = path_of(what, "what", "a path, a Joint or Functions")
         drawing = Path(folder, "page.html")
         arguments = ["show", path, *(["--plot", str(drawing)] if page else [])]
-        data = run(arguments, folder + os.sep)[0]
-        data["file"] = data["file"].replace(folder + os.sep, "")
-        return Look(data, drawing.read_text(encoding="utf-8") if page else "")
+        shown = {folder + os.sep: ""}
+        data = run(arguments, shown)[0]
+        return Look(data, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
 
 
 class Comparison:
@@ -131,7 +136,13 @@ class Comparison:
         self.page_html = page_html
 
     def plot(self) -> "Figure":
-        """Draws the numbers with their intervals of 95 %; see `bolted_joint._plot.comparison`."""
+        """Draws the numbers with their intervals of 95 %.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A figure that pyplot does not keep.
+        """
         from . import _plot
 
         return _plot.comparison(self)
@@ -160,7 +171,7 @@ class Comparison:
 
 
 def compare(
-    *joints: Joint | str | os.PathLike[str], preload_n_m: float | None = None, page: bool = False
+    *joints: AJoint | str | os.PathLike[str], preload_n_m: float | None = None, page: bool = False
 ) -> Comparison:
     """Puts joints beside each other: values, and differences from the first in standard deviations.
 
@@ -182,24 +193,27 @@ def compare(
     BoltedJointError
         If the joints are not of one kind.
     """
-    if len(joints) < 2:
-        raise BoltedJointError(f"joints: found {len(joints)}, expected at least two")
+    given: list[Any] = [joint_of(joint) for joint in joints]
+    if len(given) < 2:
+        raise BoltedJointError(f"joints: found {len(given)}, expected at least two")
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
-        files = (Path(folder, f"joint-{number}.joint.json") for number in range(1, len(joints) + 1))
-        paths = [_joint_file(joint, file) for joint, file in zip(joints, files, strict=True)]
+        files = (Path(folder, f"joint-{number}.joint.json") for number in range(1, len(given) + 1))
+        paths = [_joint_file(joint, file, "joints") for joint, file in zip(given, files, strict=True)]
         drawing = Path(folder, "page.html")
         arguments = ["compare", *paths]
         if preload_n_m is not None:
-            arguments += ["--preload", repr(float(preload_n_m))]
+            arguments += ["--preload", repr(number("preload_n_m", preload_n_m))]
         if page:
             arguments += ["--plot", str(drawing)]
-        details = run(arguments, folder + os.sep)
-        names = [joint.name if isinstance(joint, Joint) else os.fspath(joint) for joint in joints]
-        return Comparison(names, details, drawing.read_text(encoding="utf-8") if page else "")
+        names = [joint.name if isinstance(joint, Joint) else os.fspath(joint) for joint in given]
+        shown = {path: name for path, name, joint in zip(paths, names, given, strict=True) if isinstance(joint, Joint)}
+        shown[folder + os.sep] = ""
+        details = run(arguments, shown)
+        return Comparison(names, details, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
 
 
 def convert(
-    joint: Joint | str | os.PathLike[str],
+    joint: AJoint | str | os.PathLike[str],
     tool: str,
     path: str | os.PathLike[str],
     *,
@@ -241,23 +255,30 @@ def convert(
         If the tool has no word for the joint.
     """
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
-        given = _joint_file(joint, Path(folder, "given.joint.json"))
-        arguments = ["convert", given, "--to", tool, "-o", path_of(path)]
-        arguments += ["--nodes", ",".join(map(str, nodes)), "--rotation-nodes", ",".join(map(str, rotation_nodes))]
-        arguments += ["--first-number", str(first_number)]
+        joint = joint_of(joint)
+        given = _joint_file(joint, Path(folder, "given.joint.json"), "joint")
+        arguments = ["convert", given, "--to", one_of("tool", tool, _TOOLS), "-o", path_of(path)]
+        arguments += ["--nodes", _pair("nodes", nodes), "--rotation-nodes", _pair("rotation_nodes", rotation_nodes)]
+        arguments += ["--first-number", str(whole("first_number", first_number, 1))]
         if preload_n_m is not None:
-            arguments += ["--preload", repr(float(preload_n_m))]
+            arguments += ["--preload", repr(number("preload_n_m", preload_n_m))]
         if at_rest:
             arguments += ["--at-rest"]
-        run(arguments, folder + os.sep)
+        run(arguments, {given: joint.name if isinstance(joint, Joint) else given})
     return Path(path)
 
 
-def _joint_file(joint: Joint | str | os.PathLike[str], path: Path) -> str:
+def _joint_file(joint: object, path: Path, argument: str) -> str:
     if not isinstance(joint, Joint):
-        return path_of(joint)
+        return path_of(joint, argument, "a Joint or its file")
     joint.save(path)
     return str(path)
+
+
+def _pair(argument: str, nodes: Sequence[int]) -> str:
+    if len(nodes) != 2:
+        raise BoltedJointError(f"{argument}: found {nodes!r}, expected two numbers: those of sides a and b")
+    return ",".join(str(whole(argument, node, 1)) for node in nodes)
 
 
 def _numbers(rows: list[dict[str, Any]], key: str) -> NDArray[np.float64]:

@@ -1,6 +1,7 @@
 """Studies as dictionaries, with arrays where a file would have paths."""
 
 import contextlib
+import copy
 import json
 import os
 import tempfile
@@ -11,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._command import BoltedJointError, path_of
+from ._command import BoltedJointError, in_words, path_of
 from ._functions import Functions
 from ._joint import Joint
+from ._read import unit_factors
 from ._values import single, within
 
 #: Keys whose texts are never paths.
@@ -30,7 +32,8 @@ class Study(dict[str, Any]):
     tables : mapping, optional
         The study's tables, as its TOML has them.
     folder : path, optional
-        What paths in it are relative to; the current folder if it is left out.
+        What paths in it are relative to; if it is left out, that of the tables where they are a study, else the
+        current folder.
 
     Examples
     --------
@@ -39,9 +42,26 @@ class Study(dict[str, Any]):
     >>> identify(study).joint.stiffness
     """
 
-    def __init__(self, tables: Mapping[str, Any] = {}, folder: str | os.PathLike[str] = "."):
+    #: What paths are relative to.
+    folder: Path
+
+    def __init__(self, tables: Mapping[str, Any] = {}, folder: str | os.PathLike[str] | None = None):
         super().__init__(tables)
+        if folder is None:
+            folder = tables.folder if isinstance(tables, Study) else "."
         self.folder = Path(folder).resolve()
+
+    def copy(self) -> "Study":
+        """The same tables in a study of its own, with the same folder; tables within tables are shared."""
+        return Study(self)
+
+    def __or__(self, other: Any) -> Any:
+        """These tables with those of `other` in their place, in the folder of this study."""
+        return Study({**self, **other}, self.folder) if isinstance(other, Mapping) else NotImplemented
+
+    def __ror__(self, other: Any) -> Any:
+        """The tables of `other` with these in their place, in the folder of this study."""
+        return Study({**other, **self}, self.folder) if isinstance(other, Mapping) else NotImplemented
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Study":
@@ -52,6 +72,7 @@ class Study(dict[str, Any]):
         BoltedJointError
             For what is not TOML, with line and column.
         """
+        path_of(path)
         path = Path(path)
         try:
             return cls.parse(path.read_text(encoding="utf-8"), path.parent)
@@ -69,25 +90,41 @@ class Study(dict[str, Any]):
 
 #: What the functions of this module take for a study.
 AnyStudy = str | os.PathLike[str] | Mapping[str, Any]
+_A_STUDY = "a path, a dictionary or a Study"
 
 
 def tables_of(study: AnyStudy) -> Study:
     """A study's tables as a dictionary of its own, with the folder that its paths are relative to."""
-    if isinstance(study, Mapping):
-        return Study(study, study.folder if isinstance(study, Study) else ".")
-    return Study.read(study)
+    return Study(study) if isinstance(study, Mapping) else Study.read(path_of(study, "study", _A_STUDY))
+
+
+def settled(study: Mapping[str, Any]) -> Study:
+    """A study as it is now: whatever is done to the one that was given, or to the current folder, it stays the same."""
+    tables = tables_of(study)
+    return Study(_copied(tables), tables.folder)
+
+
+def _copied(value: Any) -> Any:
+    """A value with dictionaries, lists, arrays and joints of its own; functions are not changed once they are made."""
+    if isinstance(value, Mapping):
+        return {name: _copied(inner) for name, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_copied(inner) for inner in value]
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    return Joint(copy.deepcopy(value.data)) if isinstance(value, Joint) else value
 
 
 @contextlib.contextmanager
-def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
-    """The path of a study's file while the context lasts, and what of it messages need not show.
+def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
+    """The path of a study's file while the context lasts, and what messages show in place of its folder.
 
     Where the study is a dictionary, files are made for the time.
     """
     if not isinstance(study, Mapping):
-        yield path_of(study), ""
+        yield path_of(study, "study", _A_STUDY), {}
         return
-    folder = study.folder if isinstance(study, Study) else Path.cwd()
+    folder = Study(study).folder
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
         # a study of a joint in space has no such key
         has_units = study.get("method") != "frf-space"
@@ -98,15 +135,15 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, str]]:
             raise BoltedJointError(str(error)) from error
         path = Path(temporary, "study.toml")
         path.write_text(text, encoding="utf-8")
-        yield str(path), temporary + os.sep
+        yield str(path), {temporary + os.sep: ""}
 
 
-def command_of(path: str, hidden: str) -> str:
+def command_of(path: str, shown: Mapping[str, str]) -> str:
     """The command that a study's file is for."""
     try:
         return _native.command_of(path)
     except ValueError as error:
-        raise BoltedJointError(str(error).replace(hidden, "") if hidden else str(error)) from error
+        raise BoltedJointError(in_words(str(error), shown)) from error
 
 
 class _Tables:
@@ -124,6 +161,7 @@ class _Tables:
             tables = {
                 str(name): self.written(inner, f"{key}.{name}", within(place, name)) for name, inner in value.items()
             }
+            _refuse_other_statements(value, place)
             if self.has_units and _are_functions(value.get("frf")):
                 tables.setdefault("units", {"length": "m", "force": "N"})
             return tables
@@ -165,6 +203,26 @@ class _Tables:
             name = f"{stem}-{number}"
         self.names.add(name)
         return self.temporary / (name + ending)
+
+
+def _refuse_other_statements(table: Mapping[str, Any], place: str) -> None:
+    """Refuses what a table says of its functions beside arrays, which say something else of themselves."""
+    frf = table.get("frf")
+    given = [one for one in (frf if isinstance(frf, list | tuple) else [frf]) if isinstance(one, Functions)]
+    if not given:
+        return
+    units, quantity = table.get("units"), table.get("quantity")
+    if isinstance(units, Mapping) and unit_factors(units) != (1.0, 1.0):
+        raise BoltedJointError(
+            f"{within(place, 'units')}: found {dict(units)} beside Functions in {within(place, 'frf')}, which are in "
+            "SI units; leave units out, and turn the values into SI before they become Functions"
+        )
+    for functions in given:
+        if isinstance(quantity, str) and quantity != functions.quantity:
+            raise BoltedJointError(
+                f"{within(place, 'quantity')}: found {quantity!r} beside Functions in {within(place, 'frf')} whose "
+                f"quantity is {functions.quantity!r}; leave quantity out, or make Functions with quantity={quantity!r}"
+            )
 
 
 def _are_functions(value: Any) -> bool:

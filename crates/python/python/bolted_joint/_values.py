@@ -2,6 +2,7 @@
 
 import json
 import math
+import operator
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -44,6 +45,55 @@ def single(value: Any, place: str) -> Any:
         expected = "a text, a number, true or false, or a list or a dictionary of these"
         raise BoltedJointError(f"{place}: found an object of type {type(value).__name__}, expected {expected}")
     return value
+
+
+def whole(argument: str, value: Any, least: int) -> int:
+    """An argument that is a whole number, `least` or more, of Python or of NumPy.
+
+    Raises
+    ------
+    BoltedJointError
+        With the argument's name for another value.
+    """
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        found = operator.index(value)
+    except TypeError:
+        raise BoltedJointError(f"{argument}: found {value!r}, expected a whole number from {least} on") from None
+    if found < least:
+        raise BoltedJointError(f"{argument}: found {found}, expected a whole number from {least} on")
+    return found
+
+
+def number(argument: str, value: Any, least: float = -math.inf) -> float:
+    """An argument that is a finite number, `least` or more, of Python or of NumPy; errors as of `whole`."""
+    try:
+        if isinstance(value, str | bytes | bool):
+            raise TypeError
+        found = float(value)
+    except (TypeError, ValueError):
+        found = math.nan
+    if not (math.isfinite(found) and found >= least):
+        expected = "a finite number" if least == -math.inf else f"a finite number from {least:g} on"
+        raise BoltedJointError(f"{argument}: found {value!r}, expected {expected}")
+    return found
+
+
+def one_of(argument: str, value: Any, known: Sequence[Any]) -> Any:
+    """An argument that is one of some words or numbers; errors as of `whole`."""
+    if value not in known:
+        raise BoltedJointError(f"{argument}: found {value!r}, expected one of {', '.join(map(str, known))}")
+    return value
+
+
+def listed(argument: str, value: Any) -> tuple[str, ...]:
+    """An argument that is a list of texts; a text alone is one of them."""
+    found = (value,) if isinstance(value, str) else tuple(value)
+    for one in found:
+        if not isinstance(one, str):
+            raise BoltedJointError(f"{argument}: found {one!r}, expected texts")
+    return found
 
 
 def within(place: str, name: object) -> str:

@@ -1,0 +1,65 @@
+"""Arguments that are not what is expected are refused by their names in Python."""
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import bolted_joint
+from bolted_joint import BoltedJointError, Joint
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+M10 = ROOT / "tests/data/joint/m10-aluminium.joint.json"
+PLAN = ROOT / "examples/plan-in-space/study.toml"
+
+
+def test_what_was_identified_stands_for_its_joint(short, tmp_path):
+    found = bolted_joint.identify(short)
+    assert bolted_joint.check(bolted_joint.export(found, tmp_path / "x.fmu")).sound
+    assert bolted_joint.check(found).sound and bolted_joint.show(found).kind == bolted_joint.show(found.joint).kind
+    assert bolted_joint.compare(found, found.joint).names == (found.joint.name,) * 2
+    assert bolted_joint.convert(found, "nastran", tmp_path / "x.bdf").exists()
+    expected = bolted_joint.respond(short, found.joint, step_hz=50).values
+    np.testing.assert_array_equal(bolted_joint.respond(short, found, step_hz=50).values, expected)
+
+
+WRONG = {
+    "export a dictionary": (lambda: bolted_joint.export({}, "x.fmu"), r"joint: .* dict, expected a Joint, .* Study\("),
+    "check a dictionary": (lambda: bolted_joint.check({}), "what: .* dict, expected a Joint, an Fmu or a path"),
+    "show a number": (lambda: bolted_joint.show(5), "what: .* int, expected a path, a Joint or Functions"),
+    "compare a dictionary": (lambda: bolted_joint.compare({}, M10), "joints: .* dict, expected a Joint or its file"),
+    "identify a joint": (lambda: bolted_joint.identify(Joint.read(M10)), "study: .* Joint, expected a path, a dict"),
+    "a joint's path": (lambda: Joint("x.json"), r"data: found the path 'x.json', .*Joint.read\('x.json'\)"),
+    "a joint of a list": (lambda: Joint([]), "data: .* list, expected what a joint file holds"),
+    "draws of a joint": (lambda: bolted_joint.Draws.read(M10), "format 'bolted-joint/1', expected a file of draws"),
+    "read a number": (lambda: bolted_joint.read(5), "path: .* int, expected a path or a list of paths"),
+    "read a list of numbers": (lambda: bolted_joint.read([5]), "path: .* int, expected a path or a list of paths"),
+    "a joint of a number": (lambda: Joint.read(5), "path: .* int, expected a path"),
+    "a study of a number": (lambda: bolted_joint.Study.read(5), "path: .* int, expected a path"),
+    "seed alone": (lambda: bolted_joint.identify({}, seed=3), "seed: found 3 without bootstrap, expected both"),
+    "bootstrap below 0": (lambda: bolted_joint.identify({}, bootstrap=-3), "bootstrap: found -3, expected a whole"),
+    "bootstrap with a point": (lambda: bolted_joint.identify({}, bootstrap=3.0), "bootstrap: found 3.0, expected"),
+    "draws below 0": (lambda: bolted_joint.draw({}, range(-2, 2), bootstrap=4), "numbers: .* expected a range"),
+    "add below 0": (lambda: bolted_joint.respond(PLAN, plan=True, add=-1), "add: found -1, expected a whole number"),
+    "step": (lambda: bolted_joint.respond(PLAN, step_hz="x"), "step_hz: found 'x', expected a finite number"),
+    "noise": (lambda: bolted_joint.respond(PLAN, noise="frff"), "noise: found 'frff', expected one of frf, response"),
+    "fmi": (lambda: bolted_joint.export(M10, "x.fmu", fmi=7), "fmi: found 7, expected one of 2, 3"),
+    "interface": (lambda: bolted_joint.export(M10, "x.fmu", interface="a"), "interface: .*one of element, lap"),
+    "preload": (lambda: bolted_joint.compare(M10, M10, preload_n_m="x"), "preload_n_m: found 'x', expected a finite"),
+    "tool": (lambda: bolted_joint.convert(M10, "adams", "x"), "tool: found 'adams', expected one of nastran, abaqus"),
+    "nodes": (lambda: bolted_joint.convert(M10, "nastran", "x", nodes=(1, -2)), "nodes: found -2, expected a whole"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_is_named_as_python_has_it(name, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    call, said = WRONG[name]
+    with pytest.raises(BoltedJointError, match=said) as refused:
+        call()
+    assert "--" not in str(refused.value) and "Usage" not in str(refused.value)
+
+
+def test_whole_numbers_may_be_those_of_numpy(short):
+    of_numpy = bolted_joint.identify(short, bootstrap=np.int64(4), seed=np.uint8(2))
+    assert of_numpy.joint.data == bolted_joint.identify(short, bootstrap=4, seed=2).joint.data

@@ -53,7 +53,7 @@ def beams_and_bound(elements, ratio_of_damping=1.0):
 @pytest.mark.parametrize("late", [False, True])
 def test_beams_are_stable_below_the_bound_and_not_above(run, tmp_path, late):
     beams, omega, damping, relative = beams_and_bound((5, 6))
-    found = said(run, write(tmp_path, beams, history(1, 1, 1), "modes = 500"))
+    found = said(run, write(tmp_path, beams, history(1, 0.1, 1), "modes = 500"))
     bound = found["late" if late else "held"]
     for step, is_stable in [(0.995 * bound, True), (1.005 * bound, False)]:
         assert (radius(omega, damping, relative, K, C, step, late) <= 1 + 1e-9) == is_stable
@@ -64,7 +64,7 @@ def test_beams_are_stable_below_the_bound_and_not_above(run, tmp_path, late):
 
 def test_neighbours_of_a_joint_file_are_those_of_the_assembly(run, tmp_path):
     beams, *_ = beams_and_bound((5, 6))
-    path = write(tmp_path, beams, history(1, 1, 1), "modes = 500")
+    path = write(tmp_path, beams, history(1, 0.1, 1), "modes = 500")
     whole = said(run, path)
     sides = [f"a={tmp_path / 'a.npz'}@1:+Y,1:+RZ", f"b={tmp_path / 'b.npz'}@1:+Y,1:+RZ"]
     options = [word for side in sides for word in ("--neighbour", side)]
@@ -105,7 +105,7 @@ def test_a_side_without_a_structure_does_not_move(run, tmp_path):
 )
 def test_what_is_no_neighbour_is_refused(run, tmp_path, option, message):
     beams, *_ = beams_and_bound((2, 2))
-    write(tmp_path, beams, history(1, 1, 1), "modes = 500")
+    write(tmp_path, beams, history(1, 0.1, 1), "modes = 500")
     side, rest = option.split("=", 1)
     code = 2 if side == "c" else 1
     done = run("check", tmp_path / "m10.joint.json", "--neighbour", f"{side}={tmp_path / rest}", expect=code)

@@ -23,9 +23,10 @@ def workplace(run, program, tmp_path_factory):
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     commands = re.findall(r"^bolted-joint (.*)$", text, flags=re.MULTILINE)
     assert [command.split()[0] for command in commands] == ["identify", "export", "check"]
+    # a demo replaces nothing that is there
+    run("demo", "-o", folder, cwd=folder)
     for command in commands:
         run(*shlex.split(command), cwd=folder)
-    run("demo", "-o", folder, cwd=folder)
     return folder
 
 

@@ -41,30 +41,8 @@ pub(super) fn run(arguments: &ShowArguments) -> Result<(), CliError> {
         }
     }
     // what can be shown is; the last error ends the command
-    if all.is_empty()
-        && let Some(first) = refused.drain(..).next()
-    {
-        return Err(first);
-    }
-    if let Some(path) = &arguments.plot {
-        let drawing = drawn(path, &mut all)?;
-        write_file(path, drawing.as_bytes())?;
-    }
-    if arguments.json {
-        print(&serde_json::to_string_pretty(&as_json(&all))?)?;
-    } else {
-        let mut text = all.iter().map(told).collect::<Vec<_>>().join("\n");
-        if let Some(path) = &arguments.plot {
-            let _ = writeln!(text, "wrote {}", path.display());
-        }
-        print(&text)?;
-    }
-    for shown in &all {
-        let of = |warning: &String| match all.len() {
-            1 => warning.clone(),
-            _ => format!("{}: {warning}", shown.path.display()),
-        };
-        warn(&shown.warnings.iter().map(of).collect::<Vec<_>>());
+    if !all.is_empty() {
+        tell(arguments, &mut all)?;
     }
     if let Some(last) = refused.pop() {
         for error in refused {
@@ -74,6 +52,31 @@ pub(super) fn run(arguments: &ShowArguments) -> Result<(), CliError> {
     }
     let mut all = all.iter();
     all.try_for_each(|shown| CliError::unless_usable(&shown.path, &shown.reasons_against))
+}
+
+/// Draws and prints what was read, and warns of it.
+fn tell(arguments: &ShowArguments, all: &mut [Shown]) -> Result<(), CliError> {
+    if let Some(path) = &arguments.plot {
+        let drawing = drawn(path, all)?;
+        write_file(path, drawing.as_bytes())?;
+    }
+    if arguments.json {
+        print(&serde_json::to_string_pretty(&as_json(all))?)?;
+    } else {
+        let mut text = all.iter().map(told).collect::<Vec<_>>().join("\n");
+        if let Some(path) = &arguments.plot {
+            let _ = writeln!(text, "wrote {}", path.display());
+        }
+        print(&text)?;
+    }
+    for shown in &*all {
+        let of = |warning: &String| match all.len() {
+            1 => warning.clone(),
+            _ => format!("{}: {warning}", shown.path.display()),
+        };
+        warn(&shown.warnings.iter().map(of).collect::<Vec<_>>());
+    }
+    Ok(())
 }
 
 fn told(shown: &Shown) -> String {

@@ -126,6 +126,10 @@ fn a_planned_test_identifies_the_joint_that_it_was_planned_with() {
         &format!("{respond} -o plan.csv noise response --samples 2"),
         &[],
     );
+    bench.fails(
+        &format!("{respond} -o plan.csv noise frf --level 5"),
+        &["noise level: found 5", "0.01 for 1 %"],
+    );
 }
 
 /// A longer tool is the softer one: 70 and 90 mm.

@@ -187,3 +187,26 @@ fn five_lines_say_what_was_written_and_for_which_version() {
         assert_eq!(json["fmi_version"], number);
     }
 }
+
+#[test]
+fn a_system_is_of_an_assembly() {
+    let says = ["--output: found o.ssp", "an SSP is of an assembly"];
+    bench(JOINT).refused("export j.joint.json -o o.ssp", &says);
+}
+
+#[test]
+fn that_no_step_is_known_to_be_accurate_where_a_joint_slips_is_said() {
+    // the motion grows beyond all bounds, and no run of it tells the error of a step
+    let active = r#"{ "format": "bolted-joint/1", "name": "active", "joint": { "dofs": ["y"], "stiffness": [[-3e6]],
+        "damping": [[20]], "friction": [{ "dof": "y", "law": "jenkins", "stiffness": 1e5, "slip_force": 10 }] },
+        "bodies": { "a": { "inertia": [0.5], "stiffness": [2e5], "damping": [3] },
+                    "b": { "inertia": [0.3], "stiffness": [1e5], "damping": [2] } } }"#;
+    let insisted = format!("{EXPORT} --as lap --allow-active");
+    let outcome = bench(active).done(&insisted);
+    has(
+        &outcome.stdout,
+        &["at rest; how accurate it is where the joint slips is not known (--step-error)"],
+    );
+    let bench = bench(&active.replace("-3e6", "3e6"));
+    assert!(!bench.done(&insisted).stdout.contains("not known"));
+}

@@ -14,11 +14,13 @@ fn a_study_is_made_of_the_files_that_are_there() {
     bench.write("b.uff", ASSEMBLY);
     bench.write("joined.uff", ASSEMBLY);
     bench.write("notes.md", "nothing");
+    bench.write("zz.uff", b"    -1\n    58\nbroken");
     let outcome = bench.done("init");
     has(
         &outcome.stdout,
         &[
             "part a is taken to be a-modes.toml, part b b.uff, the assembly joined.uff",
+            "not read: ./zz.uff",
             "look for CHECK",
             "wrote ./study.toml",
             "wrote ./bolted-joint.schema.json",

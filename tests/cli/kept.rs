@@ -90,6 +90,14 @@ fn a_demo_takes_no_place_of_other_files() {
     for _ in 0..2 {
         bench.done("demo -o d");
     }
+    // each of the files that it writes is kept, where it is another's
+    let written = fs::read_dir(bench.path("d")).unwrap();
+    let written = written.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    for name in written {
+        let other = Bench::new();
+        other.write(&name, "another's");
+        other.refused("demo -o .", &[&name, "would be lost"]);
+    }
     bench.edit("d/study.toml", "M10x16 A2-70 on", "another on");
     bench.refused(
         "demo -o d",

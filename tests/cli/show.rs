@@ -354,3 +354,30 @@ fn a_command_that_gets_another_kind_of_file_names_the_right_one() {
         bench.refused(arguments, &[fragment]);
     }
 }
+
+#[test]
+fn files_beside_one_that_cannot_be_read_are_shown() {
+    let bench = crate::rig::ready();
+    let outcome = bench.run("show c.uff nothing study.toml nobody");
+    assert_eq!(outcome.code, Some(1));
+    has(
+        &outcome.stdout,
+        &["c.uff: universal file", "study.toml: study of method"],
+    );
+    has(
+        &outcome.stderr,
+        &[
+            "error: nothing: cannot be read",
+            "error: nobody: cannot be read",
+        ],
+    );
+    let outcome = bench.run("show nothing nobody");
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(1), ""));
+    has(
+        &outcome.stderr,
+        &[
+            "error: nothing: cannot be read",
+            "error: nobody: cannot be read",
+        ],
+    );
+}

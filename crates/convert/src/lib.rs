@@ -18,6 +18,7 @@ mod nastran;
 mod numbers;
 mod reserved;
 
+use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::JointFile;
 
 pub use ansys::matrix27_pair;
@@ -94,7 +95,12 @@ pub fn convert(
     if file.joint.over_preload.is_some() {
         return Err(ConvertError::OverPreload);
     }
-    numbers::check(target, options)?;
+    let mut dofs = file.joint.dofs.rows();
+    numbers::check(
+        target,
+        options,
+        dofs.any(|dof| dof.kind == DofKind::Rotation),
+    )?;
     reserved::check(target, &options.identifier)?;
     let head = Head::of(file, target, options);
     match target {

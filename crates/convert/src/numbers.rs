@@ -8,7 +8,8 @@ const LARGEST_OF_NASTRAN: u32 = 99_999_999;
 /// Auxiliary nodes of CalculiX: one for each relative motion, and one that it is held against.
 const AUXILIARY: u32 = 12;
 
-pub(crate) fn check(target: Target, options: &Options) -> Result<(), ConvertError> {
+/// Refuses numbers for a joint that `turns` or does not.
+pub(crate) fn check(target: Target, options: &Options, turns: bool) -> Result<(), ConvertError> {
     let has_nodes = !matches!(target, Target::Matlab | Target::Modelica);
     let [a, b] = options.nodes;
     if has_nodes && a == b {
@@ -26,14 +27,24 @@ pub(crate) fn check(target: Target, options: &Options) -> Result<(), ConvertErro
         }
     }
     if target == Target::Calculix {
-        let turns = options.rotation_nodes;
-        if turns[0] == turns[1] || turns.iter().any(|turn| options.nodes.contains(turn)) {
-            let found = format!("{} and {} beside the nodes {a} and {b}", turns[0], turns[1]);
+        // nodes that nothing refers to are none
+        let rotation_nodes = if turns {
+            &options.rotation_nodes[..]
+        } else {
+            &[]
+        };
+        if let [one, other] = rotation_nodes
+            && (one == other
+                || [one, other]
+                    .into_iter()
+                    .any(|node| options.nodes.contains(node)))
+        {
+            let found = format!("{one} and {other} beside the nodes {a} and {b}");
             return refuse("--rotation-nodes", found, "nodes of their own");
         }
         let first = options.first_number;
         let own = first..first.saturating_add(AUXILIARY);
-        let mut given = options.nodes.iter().chain(&turns);
+        let mut given = options.nodes.iter().chain(rotation_nodes);
         if let Some(node) = given.find(|node| own.contains(node)) {
             let found = format!("{first}, which makes {node} an auxiliary node, too");
             let expected = format!("the first of {AUXILIARY} numbers that no node has");
@@ -72,7 +83,7 @@ mod tests {
     #[test]
     fn every_number_means_one_thing() {
         let refused = |target, options: &Options| {
-            check(target, options).map_err(|refused| refused.to_string())
+            check(target, options, true).map_err(|refused| refused.to_string())
         };
         let usual = options([1, 2], [3, 4], 1001);
         for target in [
@@ -119,5 +130,6 @@ mod tests {
             assert!(message.contains(says), "{message}");
         }
         refused(Target::Calculix, &options([1, 2], [3, 1013], 1001)).unwrap();
+        check(Target::Calculix, &options([3, 4], [3, 4], 1001), false).unwrap();
     }
 }

@@ -1,8 +1,10 @@
 //! The shared libraries that go into an FMU: the embedded one, and those of other platforms from a folder.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
+
+use bolted_joint_files::inputs;
 
 use super::archive::Content;
 use super::{ExportError, FmiVersion};
@@ -137,7 +139,9 @@ fn from_folder(folder: &Path, name: &str, version: FmiVersion) -> Result<Vec<Bin
             systems: SYSTEMS.iter().map(|system| system.suffix).collect(),
         })?;
         let library = path.join(format!("{SOURCE_NAME}.{}", system.extension));
-        let bytes = fs::read(&library).map_err(|source| match source.kind() {
+        let mut bytes = Vec::new();
+        let read = inputs::open(&library).and_then(|mut file| file.read_to_end(&mut bytes));
+        read.map_err(|source| match source.kind() {
             io::ErrorKind::NotFound => ExportError::NoLibrary {
                 path: library.clone(),
             },

@@ -62,8 +62,8 @@ pub enum StepChoice {
     },
     /// The fastest mode drifts by 1e-6 rad in a period with it.
     Accuracy,
-    /// That of [`Self::Accuracy`], for a joint that remembers: in the reference run no step was found that is accurate enough
-    /// where it slips, or nothing slips there.
+    /// That of [`Self::Accuracy`], for a joint that remembers and of which no step is known to be accurate where it slips: none
+    /// was found in the reference run, or that run does not stay finite.
     AccuracyAtRest,
     /// The model has no modes that would set one.
     NoModes,

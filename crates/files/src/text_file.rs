@@ -90,7 +90,7 @@ pub fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= LONGEST_FILE))
 }
 
-/// What a file begins with, at most 4 KiB of it, as text.
+/// What a file begins with, at most 4 KiB of it, as text. That is a look at what an output would replace, and makes it no input.
 ///
 /// # Errors
 ///

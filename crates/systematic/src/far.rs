@@ -7,17 +7,13 @@ use super::cause::Cause;
 use super::estimate::{Settings, Start, rank};
 use super::experiment::Experiment;
 use super::line::Task;
-use super::search::{Found, Inflation, search};
+use super::search::{Inflation, search};
 use super::starts::few;
 
 /// Lines of these searches.
 const MOST_LINES: usize = 60;
-/// Their steps: those after which most are given up, …
-const FIRST_ITERATIONS: usize = 9;
-/// … and those of the others.
-const MORE_ITERATIONS: usize = 16;
-/// Searches with a cause that go on, those that leave least.
-const GO_ON: usize = 3;
+/// Their steps.
+const MOST_ITERATIONS: usize = 25;
 /// How much larger the assembly's noise is taken to be at first: what is far away shows through.
 const INFLATION: f64 = 30.0;
 
@@ -29,14 +25,13 @@ pub(crate) fn from_far(
     wider: f64,
     settings: &Settings,
 ) -> Vec<(Prior, Start)> {
-    let [first, more] = [FIRST_ITERATIONS, MORE_ITERATIONS].map(|most_iterations| Settings {
+    let settings = Settings {
         most_lines: MOST_LINES,
-        most_iterations,
+        most_iterations: MOST_ITERATIONS,
         ..settings.clone()
-    });
+    };
     let starts = few(experiment);
     let inflation = Inflation::from(experiment, INFLATION);
-    let none = Inflation::none(experiment);
     let sought = |careful: &Prior| -> Option<(f64, Prior, Start)> {
         let free = [Prior {
             standard_deviation: wider * careful.standard_deviation,
@@ -44,29 +39,27 @@ pub(crate) fn from_far(
             ..*careful
         }];
         let task = Task::new(experiment, &free);
-        let places = beginnings(careful.cause).iter().flat_map(|beginning| {
-            starts.iter().map(move |unknowns| Start {
-                unknowns: unknowns.clone(),
-                causes: vec![(careful.cause, beginning * careful.standard_deviation)],
-            })
-        });
-        let mut begun: Vec<(f64, Found)> = places
-            .filter_map(|start| search(&task, start.point(&free), &first, &inflation))
-            .map(|found| (rank(&task, &found), found))
-            .collect();
-        begun.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let go_on = begun.into_iter().take(GO_ON);
-        // the noise is no longer inflated after the first steps
-        let found = go_on.filter_map(|(_, found)| {
-            let found = search(&task, found.point, &more, &none)?;
-            Some((rank(&task, &found), found))
-        });
-        let (rank, found) = found.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
-        let start = Start {
-            unknowns: found.point.unknowns,
-            causes: vec![(careful.cause, found.point.causes[0])],
-        };
-        Some((rank, *careful, start))
+        let mut best: Option<(f64, Start)> = None;
+        for &beginning in beginnings(careful.cause) {
+            for unknowns in &starts {
+                let value = beginning * careful.standard_deviation;
+                let start = Start {
+                    unknowns: unknowns.clone(),
+                    causes: vec![(careful.cause, value)],
+                };
+                let Some(found) = search(&task, start.point(&free), &settings, &inflation) else {
+                    continue;
+                };
+                let rank = rank(&task, &found);
+                if best.as_ref().is_none_or(|(least, _)| rank < *least) {
+                    let value = found.point.causes[0];
+                    let unknowns = found.point.unknowns;
+                    let causes = vec![(careful.cause, value)];
+                    best = Some((rank, Start { unknowns, causes }));
+                }
+            }
+        }
+        best.map(|(rank, start)| (rank, *careful, start))
     };
     let mut found: Vec<_> = candidates.par_iter().filter_map(sought).collect();
     found.sort_by(|one, other| one.0.total_cmp(&other.0));

@@ -12,7 +12,7 @@ from ._command import BoltedJointError, NotUsableWarning, in_page, run
 from ._functions import Functions
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints
-from ._respond import answered
+from ._respond import answered, of_step
 from ._study import AnyStudy, Study, as_file, settled, tables_of
 from ._values import whole
 
@@ -96,7 +96,7 @@ class Identification:
             # nothing else says where the lines are
             step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
         # that the result is not to be relied on `identify` has told
-        response = answered(study, joints, step_hz=step_hz, quiet=NotUsableWarning)
+        response = answered(study, joints, of_step(step_hz), quiet=NotUsableWarning)
         assert isinstance(response, Functions)
         return response
 

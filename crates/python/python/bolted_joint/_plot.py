@@ -112,20 +112,7 @@ def joints(
 
 
 def response(table: "Response", up: str | None = None, across: str | None = None) -> "Figure":
-    """One column of a response over another, a curve for each lap and level.
-
-    Parameters
-    ----------
-    table : Response
-        What is drawn.
-    up, across : str, optional
-        Columns; of a complex number its name, without ``real``, for the magnitude. If they are left out, the first
-        column that is no level, and the one after it that is no load over time.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """The picture of `Response.plot`."""
     from ._picture import Picture
 
     names = [name for name in table.columns if name != "level"]

@@ -292,65 +292,46 @@ def respond(
     BoltedJointError
         If study or joint cannot be used.
     """
-    return answered(
-        study,
-        joint,
-        step_hz=step_hz,
-        noise=noise,
-        noise_level=noise_level,
-        noise_samples=noise_samples,
-        seed=seed,
-        deviations=deviations,
-        report=report,
-        plan=plan,
-        add=add,
-        wanted=wanted,
-    )
+    options = of_step(step_hz)
+    if report is not None:
+        options += ["--report", path_of(report, "report")]
+    if add is not None:
+        options += ["--add", str(whole("add", add, 0))]
+    if wanted:
+        options += ["--for", ",".join(listed("wanted", wanted))]
+    if noise is not None:
+        options += ["noise", one_of("noise", noise, ("frf", "response"))]
+        options += ["--level", repr(number("noise_level", noise_level))]
+        options += ["--samples", str(whole("noise_samples", noise_samples, 1))]
+        options += ["--seed", str(whole("seed", seed, 0))]
+    return answered(study, joint, options, plan=plan, deviations=deviations)
+
+
+def of_step(step_hz: float | None) -> list[str]:
+    """The option of a distance between lines, Hz."""
+    return [] if step_hz is None else ["--step", repr(number("step_hz", step_hz))]
 
 
 def answered(
     study: AnyStudy,
-    joint: AnyJoint | None = None,
+    joint: AnyJoint | None,
+    options: Sequence[str],
     *,
-    step_hz: float | None = None,
-    noise: str | None = None,
-    noise_level: float = 0.01,
-    noise_samples: int = 4096,
-    seed: int = 1,
-    deviations: bool = False,
-    report: str | os.PathLike[str] | None = None,
     plan: bool = False,
-    add: int | None = None,
-    wanted: Sequence[str] | str = (),
+    deviations: bool = False,
     quiet: type[Warning] | None = None,
 ) -> Functions | Response | Plan:
-    """As `respond`, which the user calls, without warnings of one type."""
+    """What the command prints or writes with these options, without warnings of one type."""
     with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         shown[folder + os.sep] = ""
         output, beside = Path(folder, "responses.csv"), Path(folder, "deviations.csv")
         arguments = ["respond", path]
-        if plan:
-            arguments.append("--plan")
-        else:
-            arguments += ["-o", str(output)]
+        arguments += ["--plan"] if plan else ["-o", str(output)]
         if joint is not None:
             arguments += ["--joint", _joint_file(joint, Path(folder), shown)]
-        if step_hz is not None:
-            arguments += ["--step", repr(number("step_hz", step_hz))]
         if deviations:
             arguments += ["--deviations", str(beside)]
-        if report is not None:
-            arguments += ["--report", path_of(report, "report")]
-        if add is not None:
-            arguments += ["--add", str(whole("add", add, 0))]
-        if wanted:
-            arguments += ["--for", ",".join(listed("wanted", wanted))]
-        if noise is not None:
-            arguments += ["noise", one_of("noise", noise, ("frf", "response"))]
-            arguments += ["--level", repr(number("noise_level", noise_level))]
-            arguments += ["--samples", str(whole("noise_samples", noise_samples, 1))]
-            arguments += ["--seed", str(whole("seed", seed, 0))]
-        details: dict[str, Any] = run(arguments, shown, quiet=quiet, stacklevel=4)
+        details: dict[str, Any] = run([*arguments, *options], shown, quiet=quiet, stacklevel=4)
         if plan:
             return Plan(details)
         if "functions" not in details:

@@ -1,6 +1,5 @@
 //! FRF decoupling: the joint's complex stiffness at each line from substructures and assembly (Tol 3.18 to 3.21).
 
-use nalgebra::SVD;
 use num_complex::Complex64;
 
 use bolted_joint_frf::structure::{ComplexMatrix, Partition};
@@ -159,7 +158,9 @@ fn pseudo_inverse(matrix: &ComplexMatrix) -> Option<ComplexMatrix> {
     for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
         column /= Complex64::from(*length);
     }
-    let mut inverse = SVD::new(scaled, true, true).pseudo_inverse(1e-13).ok()?;
+    let mut inverse = bolted_joint_singular::complex(scaled)?
+        .pseudo_inverse(1e-13)
+        .ok()?;
     for (mut row, length) in inverse.row_iter_mut().zip(&lengths) {
         row /= Complex64::from(*length);
     }

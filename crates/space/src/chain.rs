@@ -150,7 +150,9 @@ fn compressed(one: &DMatrix<f64>, other: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
 
 /// Orthonormal columns that span what the columns span.
 fn range(scaled: &DMatrix<f64>) -> DMatrix<f64> {
-    let svd = scaled.clone().svd(true, false);
+    let Some(svd) = bolted_joint_singular::real(scaled.clone()) else {
+        return DMatrix::zeros(scaled.nrows(), 0);
+    };
     let least = rounding(scaled.nrows().max(scaled.ncols())) * svd.singular_values.max();
     let used: Vec<usize> = (0..svd.singular_values.len())
         .filter(|&n| svd.singular_values[n] > least)
@@ -166,7 +168,6 @@ fn angle(one: &DMatrix<f64>, other: &DMatrix<f64>) -> [f64; 2] {
     if one.ncols() == 0 || other.ncols() == 0 {
         return [0.0, 1.0];
     }
-    let cosine = (one.transpose() * other).singular_values().max().min(1.0);
     // The sine is that of the space of fewer dimensions: its part outside of the other one.
     let (less, more) = if one.ncols() < other.ncols() {
         (one, other)
@@ -175,7 +176,11 @@ fn angle(one: &DMatrix<f64>, other: &DMatrix<f64>) -> [f64; 2] {
     };
     let mut outside = less - more * (more.transpose() * less);
     outside -= more * (more.transpose() * &outside);
-    [cosine, outside.singular_values().min().min(1.0)]
+    let values = |matrix| bolted_joint_singular::real(matrix).map(|svd| svd.singular_values);
+    let Some((cosines, sines)) = values(one.transpose() * other).zip(values(outside)) else {
+        return [0.0, 1.0];
+    };
+    [cosines.max().min(1.0), sines.min().min(1.0)]
 }
 
 /// √([(JᵀJ)⁻¹]_kk of both joints' J over that of the one joint's J alone), by R of QR.

@@ -84,6 +84,20 @@ pub enum SpatialError {
         /// What a rigid interface leaves of the functions, r.m.s. in percent: as they are, and mirrored.
         percent: [f64; 2],
     },
+    /// Motions that no structure has.
+    #[error(
+        "{joint}: neither of its structures moves in {motions} where they meet, as structures in a plane do; seek the joint in the motions \
+         that there are, with motions = [{has}] at the head of the study and the sensors and impacts that see them, or give structures \
+         in space"
+    )]
+    Motionless {
+        /// Its table in the study.
+        joint: String,
+        /// These motions.
+        motions: String,
+        /// Those that there are.
+        has: String,
+    },
     /// Two joints look the same.
     #[error(
         "the functions do not tell {} and {} apart (canonical correlation {correlation}): the part between them is as good as rigid and \

@@ -7,7 +7,7 @@ use crate::fit::{Effort, Fit, Squares, covariance};
 use crate::fits::strongest;
 use crate::hidden::{Beside, searched_beside};
 use crate::identification::{Group, SpatialIdentification, Substructures};
-use crate::level::{of_residuals, relative_rms, root_mean_square};
+use crate::level::{of_residuals, relative_rms, sizes};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
@@ -74,11 +74,7 @@ impl SpatialStudy {
                 unknowns: problem.joint_count(),
             });
         }
-        let rms: Deviations = problem
-            .observed
-            .iter()
-            .map(|one| root_mean_square(one.values.iter().map(|value| value.norm_sqr())))
-            .collect();
+        let rms = sizes(problem);
         let found = match self.level {
             Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(&rms, part)?,
             _ => self.beside_exact(&rms)?,

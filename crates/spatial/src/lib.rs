@@ -25,6 +25,7 @@ mod level;
 mod links;
 mod mirrored;
 mod misfits;
+mod motionless;
 mod normal;
 mod numbers;
 mod parallel;

@@ -12,6 +12,7 @@ use crate::assembled::{Assembled, Open};
 use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
 use crate::fit::covariance;
+use crate::motionless::refuse_motionless;
 use crate::normal::{Deviations, Normal};
 use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
@@ -53,6 +54,7 @@ pub(crate) fn starts(
             .map(|line| assembled.open(line))
             .collect::<Result<_, _>>()?
     };
+    refuse_motionless(&problem, &open)?;
     let mut ways = Vec::new();
     let loads = Loads::of(&problem, &open, level);
     if let Some(loads) = &loads {
@@ -310,7 +312,7 @@ fn pseudo_inverse(
     let (rows, columns) = matrix.shape();
     let factor = |n: usize, m: usize| weights[n].sqrt() * scales[m];
     let weighted = DMatrix::from_fn(rows, columns, |n, m| matrix[(n, m)] * factor(n, m));
-    let svd = weighted.svd(true, true);
+    let svd = bolted_joint_singular::complex(weighted)?;
     if svd.singular_values.min() <= RANK * svd.singular_values.max() {
         return None;
     }

@@ -255,7 +255,7 @@ fn least_squares(
     let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
         matrix[(i, j)] / lengths[j]
     });
-    let svd = scaled.svd(true, true);
+    let svd = bolted_joint_singular::complex(scaled)?;
     let solved = svd.solve(right, 1e-13).ok()?;
     Some(DVector::from_fn(solved.len(), |i, _| {
         solved[i] / lengths[i]

@@ -173,13 +173,15 @@ fn spectrum(
     });
     // square, so that the decomposition has all motions; R s = Q (upper triangle)
     let triangle = scaled.qr().r();
-    let eigen = nalgebra::SVD::new(triangle, false, true);
-    let rows = eigen.v_t.unwrap_or_else(|| DMatrix::identity(count, count));
     let mut shapes = DMatrix::zeros(count, 6);
+    let found = bolted_joint_singular::real(triangle);
+    let Some((values, rows)) = found.and_then(|svd| Some((svd.singular_values, svd.v_t?))) else {
+        return (nalgebra::DVector::zeros(count), shapes);
+    };
     for (at, &j) in own.iter().enumerate() {
         shapes.set_column(j, &(rows.column(at) * scale(j)));
     }
-    (eigen.singular_values, shapes)
+    (values, shapes)
 }
 
 #[cfg(test)]

@@ -152,8 +152,8 @@ impl Causes<'_> {
         let right = DVector::from_fn(count, |p, _| product(&changes[p], &self.disagreement));
         let whole = product(&self.disagreement, &self.disagreement);
         let least = NOTHING * normal.diagonal().max();
-        let solved = normal.svd(true, true).solve(&right, least);
-        let solution = solved.unwrap_or_else(|_| DVector::zeros(count));
+        let solved = bolted_joint_singular::solution(normal, &right, least);
+        let solution = solved.unwrap_or_else(|| DVector::zeros(count));
         let explained = right.dot(&solution);
         let left = if whole > 0.0 {
             1.0 - explained / whole

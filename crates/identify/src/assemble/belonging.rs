@@ -67,7 +67,7 @@ fn outside(lines: &Lines) -> Option<f64> {
     let asked = (0..count).step_by(count.div_ceil(ASKED).max(1));
     let parts = asked.filter_map(|line| {
         let b = lines.b_at(line);
-        let u = b.points_joint.clone().svd(true, false);
+        let u = bolted_joint_singular::complex(b.points_joint.clone())?;
         let largest = u.singular_values.max();
         let (values, u) = (u.singular_values, u.u?);
         let (mut left, mut whole) = (0.0, 0.0);

@@ -331,7 +331,7 @@ fn force_over_response(model: &Model, data: &[SineLine], known: &Values) -> Opti
     for (mut column, norm) in scaled.column_iter_mut().zip(&norms) {
         column /= *norm;
     }
-    let solution = scaled.svd(true, true).solve(&right, 1e-13).ok()?;
+    let solution = bolted_joint_singular::solution(scaled, &right, 1e-13)?;
     let mut values = *known;
     for ((unknown, value), norm) in linear.iter().zip(solution.iter()).zip(&norms) {
         let power = match unknown {

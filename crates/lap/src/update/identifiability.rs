@@ -142,14 +142,14 @@ fn known_share(jacobian: &DMatrix<f64>) -> Vec<f64> {
     if jacobian.ncols() == 0 {
         return Vec::new();
     }
-    let svd = jacobian.clone().svd(false, true);
-    let largest = svd.singular_values.max();
-    let Some(rows) = svd.v_t else {
+    let found = bolted_joint_singular::real(jacobian.clone());
+    let Some((values, rows)) = found.and_then(|svd| Some((svd.singular_values, svd.v_t?))) else {
         return vec![0.0; jacobian.ncols()];
     };
+    let largest = values.max();
     (0..jacobian.ncols())
         .map(|j| {
-            let spanned = svd.singular_values.iter().enumerate();
+            let spanned = values.iter().enumerate();
             let spanned = spanned.filter(|(_, value)| **value > RANK * largest && largest > 0.0);
             let share: f64 = spanned.map(|(i, _)| rows[(i, j)].powi(2)).sum();
             // Rounding is no influence.
@@ -160,7 +160,7 @@ fn known_share(jacobian: &DMatrix<f64>) -> Vec<f64> {
 
 /// Relative standard deviations of the unknowns, by the pseudo-inverse; of use for those that are determined.
 fn deviations(jacobian: &DMatrix<f64>, relative: f64) -> Option<Vec<f64>> {
-    let inverse = jacobian.clone().pseudo_inverse(RANK).ok()?;
+    let inverse = bolted_joint_singular::pseudo_inverse(jacobian.clone(), RANK)?;
     let rows = inverse.row_iter().map(|row| relative * row.norm());
     Some(rows.collect())
 }

@@ -142,8 +142,8 @@ impl Parametrisation {
         let sizes: Vec<f64> = columns.iter().map(Matrix6::norm).collect();
         let design = DMatrix::from_fn(36, self.count(), |row, n| columns[n][row] / sizes[n]);
         let right = DVector::from_column_slice(scaled(matrix).as_slice());
-        let fitted = design.svd(true, true).solve(&right, 1e-13);
-        let fitted = fitted.map_err(|_| SpaceError::NotFinite {
+        let fitted = bolted_joint_singular::solution(design, &right, 1e-13);
+        let fitted = fitted.ok_or(SpaceError::NotFinite {
             what: "the model's matrices",
         })?;
         let unknowns: Vec<f64> = fitted

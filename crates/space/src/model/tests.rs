@@ -57,7 +57,7 @@ fn group(turns: usize, mirrors: Mirrors) -> Vec<Matrix6<f64>> {
 
 fn rank(matrices: &[Matrix6<f64>]) -> usize {
     let columns = DMatrix::from_fn(36, matrices.len(), |row, n| matrices[n][row]);
-    columns.svd(false, false).rank(1e-10)
+    bolted_joint_singular::real(columns).unwrap().rank(1e-10)
 }
 
 /// The mean of 𝐑 K 𝐑ᵀ over the group is a projection on what the group leaves alone. What it makes of 40 random

@@ -7,9 +7,9 @@ use super::study::ChainStudy;
 use crate::error::SpatialError;
 use crate::fit::covariance;
 use crate::identification::Unknown;
-use crate::level::{of_residuals, relative_rms, root_mean_square};
+use crate::level::{of_residuals, relative_rms, sizes};
 use crate::links::Sought;
-use crate::normal::{Deviations, Normal};
+use crate::normal::Normal;
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem};
 use crate::reasons;
@@ -87,11 +87,7 @@ impl ChainStudy {
                 unknowns: count,
             });
         }
-        let rms: Deviations = problem
-            .observed
-            .iter()
-            .map(|one| root_mean_square(one.values.iter().map(|value| value.norm_sqr())))
-            .collect();
+        let rms = sizes(&problem);
         let mut level = match self.level {
             Level::Relative(part) => rms.iter().map(|rms| part * rms).collect(),
             Level::OfResiduals => rms.clone(),

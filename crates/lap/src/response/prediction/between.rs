@@ -117,10 +117,8 @@ impl RunScatter {
             root(row) * entry
         });
         let found = DVector::from_fn(count, |row, _| root(row) * errors[row].error);
-        let inverse = design
-            .clone()
-            .pseudo_inverse(SINGULAR * design.norm())
-            .ok()?;
+        let inverse =
+            bolted_joint_singular::pseudo_inverse(design.clone(), SINGULAR * design.norm())?;
         let numbers = &inverse * &found;
         let left = (&found - &design * &numbers).norm_squared() / (count - columns) as f64;
         let covariance = left * &inverse * inverse.transpose();

@@ -115,8 +115,8 @@ impl Scatter {
                     normal.ger(1.0 / variance, by, by, 1.0);
                 }
             }
-            let found = normal.pseudo_inverse(ACCURACY);
-            inverse = found.map_err(|_| NoInterval::Undetermined)?;
+            let found = bolted_joint_singular::pseudo_inverse(normal, ACCURACY);
+            inverse = found.ok_or(NoInterval::Undetermined)?;
             let before = taken_up;
             taken_up = [0, 1].map(|kind| {
                 let each = fitted.iter().map(|(_, gradients)| {

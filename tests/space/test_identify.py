@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from frames import Rig, row
+from frames import LIGHT, STEEL, Frame, Rig, row
 
 LENGTHS = np.array([1, 1, 1, 0.03, 0.03, 0.03])
 UPPER = np.triu_indices(6)
@@ -272,6 +272,53 @@ def test_mirrored_places_are_refused(run, tmp_path, tables, axis, named):
     study.write_text("\n".join(lines))
     told = run("identify", study, "-o", tmp_path / "j.joint.json", expect=1).stderr
     assert f"b: the {named} look mirrored along {'xyz'[axis]}" in told, told
+
+
+class Straight(Rig):
+    """Two straight beams, with sensors and impacts along their axes: many functions are exactly zero."""
+
+    def __init__(self, K, C):
+        super().__init__(K, C)
+        self.a = Frame([[x, 0, 0] for x in (-0.5, -0.3, -0.1, 0)], STEEL, ground=[3e6, 2e6, 4e6, 3e4, 4e4, 2e4])
+        self.b = Frame([[x, 0, 0] for x in (0, 0.15, 0.3)], LIGHT)
+        self.at = [18, 0]
+        places = 0.02 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        hits, axes = zip(*[(p, e) for p in places for e in np.eye(3)])
+        self.sides = [(places, np.array(hits), np.array(axes))] * 2
+
+
+def test_functions_that_are_zero_do_not_outweigh_the_others(run, tmp_path):
+    stiffness = np.diag([3e7, 2e7, 2e7, 6e3, 9e3, 9e3])
+    rig = Straight(stiffness, 2e-5 * stiffness)
+    rig.write(tmp_path, FREQUENCIES, more=EXACT)
+    done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json")
+    assert " of 576 functions are zero at every line and are left out" in done.stderr, done.stderr
+    joint = json.loads(done.stdout)["joint_file"]["joint"]
+    assert apart(joint["stiffness"], stiffness) < 1e-7
+    # nor with noise, and a budget for errors of the set-up
+    rig.write(tmp_path, FREQUENCIES, noise=0.01, rng=np.random.default_rng(1))
+    errors = {u["name"]: (u["free"], u["standard_deviation"]) for u in identified(run, tmp_path)["unknowns"]}
+    names = ["k_x", "k_y", "k_z", "k_rx", "k_ry", "k_rz"]
+    z = [(errors[name][0] - truth) / errors[name][1] for name, truth in zip(names, np.diag(stiffness))]
+    assert np.abs(z).max() < 3.5, z
+
+
+class Flat(Rig):
+    """Structures that are computed in the plane of x and y: nothing is in the other motions."""
+
+    def functions(self, frequencies, rows=None):
+        rows = rows or [self.rows(0), self.rows(1)]
+        for u, f in rows:
+            u[:, 2:5], f[:, 2:5] = 0, 0
+        return super().functions(frequencies, rows)
+
+
+@pytest.mark.parametrize("model, motions", [("full", "z, rx, ry"), ("translations", "z")])
+def test_six_motions_of_structures_in_a_plane_are_refused(run, tmp_path, model, motions):
+    Flat(K, C).write(tmp_path, FREQUENCIES[:20], model=f'model = "{model}"', more=EXACT)
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert f"joint: neither of its structures moves in {motions} where they meet" in told, told
+    assert 'motions = ["x", "y", "rz"]' in told, told
 
 
 def test_few_impacts_are_warned_of(run, tmp_path):

@@ -6,10 +6,20 @@ use crate::side::{Interface, Side};
 use crate::study::SpatialStudy;
 
 impl SpatialStudy {
-    /// What the places of sensors and impacts are warned of; nothing where each interface has enough of them in a good arrangement.
+    /// What the places of sensors and impacts are warned of, and functions that tell nothing; nothing where each interface has enough of
+    /// them in a good arrangement.
     #[must_use]
     pub fn advice(&self) -> Vec<String> {
-        advice(&self.problem.sides)
+        let mut all = advice(&self.problem.sides);
+        let (left_out, used) = (self.zero_functions, self.functions());
+        if left_out > 0 {
+            all.push(format!(
+                "assembly: {left_out} of {} functions are zero at every line and are left out: computed ones of structures that are \
+                 symmetric, or channels that are not connected",
+                used + left_out
+            ));
+        }
+        all
     }
 }
 

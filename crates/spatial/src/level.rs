@@ -14,20 +14,15 @@ const LEAST_LEVEL: f64 = 1e-12;
 /// Likewise where errors of the set-up are estimated: nobody measures better, and beside less the budget would be lost.
 const LEAST_MEASURED: f64 = 1e-4;
 
-/// Least size of a function in parts of the largest: one that is zero, as between planes of symmetry, is so but for rounding.
-const LEAST_SIZE: f64 = 1e-9;
-
 /// R.m.s. of each observed function.
 pub(crate) fn sizes(problem: &Problem) -> Deviations {
-    let of = |values: &[Complex64]| root_mean_square(values.iter().map(Complex64::norm_sqr));
-    let mut sizes: Deviations = (problem.observed.iter())
-        .map(|one| of(&one.values))
-        .collect();
-    let largest = sizes.iter().copied().fold(0.0, f64::max);
-    for size in &mut sizes {
-        *size = size.max(LEAST_SIZE * largest);
-    }
-    sizes
+    let sizes = problem.observed.iter().map(|one| size(&one.values));
+    sizes.collect()
+}
+
+/// R.m.s. of a function.
+pub(crate) fn size(values: &[Complex64]) -> f64 {
+    root_mean_square(values.iter().map(Complex64::norm_sqr))
 }
 
 /// The level of each function's noise, by its residuals.

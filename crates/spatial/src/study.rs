@@ -11,6 +11,7 @@ use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::chain::ChainStudy;
+use crate::level::size;
 use crate::links::Links;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
@@ -20,6 +21,9 @@ use crate::tables::{
 
 /// How far from an interface a sensor, an impact or a bolt of it is at most, m.
 pub(crate) const FARTHEST_M: f64 = 3.0;
+
+/// Size of a function in parts of the largest one that is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Frequencies that are the same, in parts.
 const SAME: f64 = 1e-6;
@@ -41,6 +45,8 @@ pub struct SpatialStudy {
     pub level: Level,
     /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
     pub noise: [f64; 2],
+    /// Functions of the assembly that are left out since they are zero.
+    pub(crate) zero_functions: usize,
     pub(crate) problem: Problem,
     /// What the interfaces have.
     pub(crate) motions: Motions,
@@ -82,7 +88,7 @@ impl SpatialStudy {
             );
         };
         let (sides, link) = chain.two_sides()?;
-        let observed = reader.observed(&sides, Some(assembly))?;
+        let (observed, zero_functions) = reader.observed(&sides, Some(assembly))?;
         let frequency_hz = chain.problem.frequency_hz.clone();
         Ok(Self {
             motions: chain.motions,
@@ -93,6 +99,7 @@ impl SpatialStudy {
             files: chain.files,
             level: chain.level,
             noise: chain.noise,
+            zero_functions,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides)?,
                 sides,
@@ -320,12 +327,13 @@ impl Reader<'_> {
         })
     }
 
-    /// Every function of the assembly between rows and columns of the parts.
+    /// Every function of the assembly between rows and columns of the parts, and how many are left out since they are zero: these
+    /// tell nothing.
     pub(crate) fn observed(
         &self,
         sides: &[Side; 2],
         assembly: Option<&FrfSet>,
-    ) -> Result<Vec<Observed>, StudyError> {
+    ) -> Result<(Vec<Observed>, usize), StudyError> {
         let [a, b] = sides;
         let places = |first: &[Dof], second: &[Dof]| -> Vec<(usize, Dof)> {
             first.iter().chain(second).copied().enumerate().collect()
@@ -352,7 +360,18 @@ impl Reader<'_> {
             "no function between DOFs of the parts",
             "functions between sensors, impacts, responses and references of the parts; points have one number in all files",
         )?;
-        Ok(observed)
+        let all = observed.len();
+        let sizes = observed.iter().map(|one| size(&one.values));
+        let largest = sizes.fold(0.0, f64::max);
+        observed.retain(|one| size(&one.values) > ROUNDING * largest);
+        self.study.ensure(
+            !observed.is_empty(),
+            "assembly.frf",
+            "functions that are zero at every line",
+            "functions of an assembly that moves",
+        )?;
+        let left_out = all - observed.len();
+        Ok((observed, left_out))
     }
 
     pub(crate) fn model(

@@ -202,7 +202,8 @@ impl ChainStudy {
             study: &self.text,
             motions: self.motions,
         };
-        reader.observed(&self.problem.sides, self.assembly.as_ref())
+        let (observed, _) = reader.observed(&self.problem.sides, self.assembly.as_ref())?;
+        Ok(observed)
     }
 
     /// How many joints are sought.

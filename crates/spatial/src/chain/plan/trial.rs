@@ -10,7 +10,7 @@ use crate::chain::apart::{Apart, apart};
 use crate::chain::study::ChainStudy;
 use crate::error::SpatialError;
 use crate::fit::covariance;
-use crate::level::root_mean_square;
+use crate::level::sizes;
 use crate::links::is_determined;
 use crate::normal::{Deviations, Normal};
 use crate::problem::{Observed, Problem, Unknowns};
@@ -58,11 +58,8 @@ impl Test {
         for (n, one) in problem.observed.iter_mut().enumerate() {
             one.values = computed.iter().map(|functions| functions[n]).collect();
         }
-        let level: Deviations = problem
-            .observed
-            .iter()
-            .map(|one| noise * root_mean_square(one.values.iter().map(|value| value.norm_sqr())))
-            .collect();
+        let sizes = sizes(&problem).into_iter();
+        let level: Deviations = sizes.map(|size| noise * size).collect();
         // a function that is nothing tells nothing, though its sensor and its impact are there
         let places = problem.observed.iter().map(|one| one.at).collect();
         let mut told = level.iter();

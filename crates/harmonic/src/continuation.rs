@@ -95,6 +95,7 @@ impl<const D: usize> System<'_, D> {
         }];
         let mut length = steps.first.min(steps.longest);
         while points.len() < steps.most {
+            bolted_joint_wanted::look();
             let Some((next, iterations)) = self.step(&place, length) else {
                 length *= 0.5;
                 if length < steps.shortest {

@@ -185,6 +185,7 @@ pub(super) fn levenberg_marquardt(
     let mut settled = false;
     let mut promises: Vec<f64> = Vec::new();
     for _ in 0..most {
+        bolted_joint_wanted::look();
         if objective.has_many_joints() && wanders(&promises) {
             break;
         }

@@ -85,6 +85,7 @@ thread_local! {
 
 /// Does a piece of shared work.
 fn as_piece<R>(work: impl FnOnce() -> R) -> R {
+    bolted_joint_wanted::look();
     let before = IS_IN_PIECE.replace(true);
     let result = work();
     IS_IN_PIECE.set(before);

@@ -7,14 +7,12 @@ use std::thread;
 use std::time::Duration;
 
 use bolted_joint::command_line::{self, Answer, Call, Program};
+use bolted_joint_wanted::Asker;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 /// How often Ctrl-C is looked for while a command runs.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
-/// As much as the first thread of a process has.
-const STACK_BYTES: usize = 8 << 20;
-
 /// Executable, arguments before a command's name, folder of FMU libraries.
 type Started = (PathBuf, Vec<String>, Option<PathBuf>);
 
@@ -24,14 +22,14 @@ type Started = (PathBuf, Vec<String>, Option<PathBuf>);
 /// the module brings along.
 #[pyfunction]
 pub(super) fn main(py: Python<'_>, arguments: Vec<OsString>, python: Started) -> PyResult<u8> {
-    in_thread(py, move || {
+    in_threads(py, move || {
         command_line::main_of(program(python), arguments)
     })
 }
 
 /// Runs a command; gives its exit code, what it printed, and its messages line by line.
 ///
-/// Raises `KeyboardInterrupt` at Ctrl-C; the command then ends unheard.
+/// Raises `KeyboardInterrupt` at Ctrl-C; the command then ends as soon as it next looks.
 #[pyfunction]
 pub(super) fn call(
     py: Python<'_>,
@@ -46,7 +44,7 @@ pub(super) fn call(
         exit_code,
         printed,
         messages,
-    } = in_thread(py, move || command_line::call(call))?;
+    } = in_threads(py, move || command_line::call(call))?;
     Ok((exit_code, printed, messages))
 }
 
@@ -58,18 +56,20 @@ fn program((path, arguments, platforms): Started) -> Program {
     }
 }
 
-/// Does `work` in a thread of its own while Python's other threads run, and listens for Ctrl-C meanwhile.
-fn in_thread<T: Send + 'static>(
+/// Does `work` in threads of its own while Python's other threads run, and listens for Ctrl-C meanwhile.
+fn in_threads<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
     let (sender, mut receiver) = mpsc::channel();
+    let asker = Asker::new();
+    let asked = asker.clone();
     thread::Builder::new()
         .name("bolted-joint".to_owned())
-        .stack_size(STACK_BYTES)
         .spawn(move || {
+            let result = asked.ask(work).transpose();
             // nobody listens after Ctrl-C
-            let _ = sender.send(work());
+            let _ = result.map(|result| sender.send(result));
         })?;
     loop {
         let heard;
@@ -78,8 +78,10 @@ fn in_thread<T: Send + 'static>(
             (receiver, heard)
         });
         match heard {
-            Ok(result) => return Ok(result),
-            Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+            Ok(result) => return Ok(result?),
+            Err(RecvTimeoutError::Timeout) => {
+                py.check_signals().inspect_err(|_| asker.give_up())?
+            }
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err(
                     "bolted-joint has come upon a mistake of its own; its message is on standard error",

@@ -1,6 +1,6 @@
 //! The compiled part of the Python module `bolted_joint`.
 //!
-//! A command runs within the Python process, in a thread of its own: other Python threads go on, and Ctrl-C is heard.
+//! A command runs within the Python process, in threads of its own: other Python threads go on, and Ctrl-C is heard.
 //! What it prints and warns of comes back as text, so that Python and the command line have the same results and words.
 #![forbid(unsafe_code)]
 

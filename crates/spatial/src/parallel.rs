@@ -32,6 +32,7 @@ fn in_pieces<T: Send, E: Send>(
     length: usize,
     work: impl Fn(Range<usize>) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
+    bolted_joint_wanted::look();
     let pieces: Vec<Range<usize>> = (0..lines)
         .step_by(length)
         .map(|first| first..lines.min(first + length))

@@ -119,6 +119,7 @@ pub(crate) fn search(
     let mut stuck = 0;
     let mut checks = 0;
     for iteration in 0..settings.most_iterations {
+        bolted_joint_wanted::look();
         let recomputed = Recomputations::of(experiment, task.priors, &point.causes)?;
         let frozen = !rests;
         let scatter = Scatter {

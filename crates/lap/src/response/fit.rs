@@ -193,6 +193,7 @@ fn fit_up_to(
     };
     let mut damping = DAMPING;
     for _ in 0..most_steps {
+        bolted_joint_wanted::look();
         let (information, gradient) = normal_equations(&state, unknowns);
         let limits = bounds(&state);
         let mut accepted = false;

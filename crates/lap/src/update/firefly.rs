@@ -76,6 +76,7 @@ pub fn fireflies(
     let mut history = vec![best.1];
     let mut step = settings.step;
     for _ in 0..settings.iterations {
+        bolted_joint_wanted::look();
         for i in 0..flies.len() {
             for j in 0..flies.len() {
                 if flies[j].objective >= flies[i].objective {

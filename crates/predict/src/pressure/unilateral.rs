@@ -128,6 +128,7 @@ impl<'a> Contact<'a> {
         let mut plane = Vector3::zeros();
         let mut state = self.state(&plane, &target);
         for _ in 0..STEPS {
+            bolted_joint_wanted::look();
             if state.residual.amax() <= RESIDUAL * scale_n {
                 return Some(plane);
             }

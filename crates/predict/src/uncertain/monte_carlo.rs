@@ -75,6 +75,7 @@ impl MonteCarlo {
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome, MonteCarloError> {
         let one = |number: u64| {
+            bolted_joint_wanted::look();
             let scores = self.scores(inputs, number);
             let result = result(inputs, &scores, &model);
             progress();
@@ -96,6 +97,7 @@ impl MonteCarlo {
         progress: &(dyn Fn() + Sync),
     ) -> Vec<Draw> {
         let one = |number: u64| {
+            bolted_joint_wanted::look();
             let result = result(inputs, &self.scores(inputs, number), &model);
             progress();
             match result {

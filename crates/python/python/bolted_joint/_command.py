@@ -19,9 +19,6 @@ PYTHON = (sys.executable, ["-m", "bolted_joint"], str(_PLATFORMS) if _PLATFORMS.
 
 _NOT_USABLE = 3
 
-#: Commands whose work is shared among threads.
-_SHARING = ("identify", "merge", "predict", "respond")
-
 
 class BoltedJointError(ValueError):
     """What was given cannot be used; the message says where, what was found and what was expected."""
@@ -43,22 +40,6 @@ def path_of(path: object, argument: str = "path", expected: str = "a path") -> s
         raise BoltedJointError(f"{argument}: found an object of type {type(path).__name__}, expected {expected}")
     text = os.fspath(path)
     return os.path.join(".", text) if text.startswith("-") else text
-
-
-class _Threads:
-    """Whether commands share threads here, and whether they are those of a parent, which a forked process lacks."""
-
-    are_there = False
-    are_lost = False
-
-    @classmethod
-    def lose(cls) -> None:
-        """What is done in a process that was forked."""
-        cls.are_lost = cls.are_lost or cls.are_there
-
-
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_Threads.lose)
 
 
 def in_words(text: str, shown: Mapping[str, str]) -> str:
@@ -101,19 +82,11 @@ def run(
     Raises
     ------
     BoltedJointError
-        With the command line's message, or in a forked process that would wait for threads that it does not have.
+        With the command line's message.
     KeyboardInterrupt
-        At Ctrl-C.
+        At Ctrl-C. The work then ends by itself, in less than a second.
     """
     command, *rest = arguments
-    if command in _SHARING:
-        if _Threads.are_lost:
-            raise BoltedJointError(
-                f"found a process that was forked after its parent had computed, expected one that was not for {command}:"
-                " threads of the parent are not in this one, which would wait for them for ever; take "
-                'multiprocessing.get_context("spawn") or "forkserver"'
-            )
-        _Threads.are_there = True
     # before what stands at the end, which may be a command of its own
     exit_code, printed, messages = _native.call([command, "--json", *rest], PYTHON)
     errors = []

@@ -98,6 +98,7 @@ pub(super) fn sampled(
     let farthest = ESCAPES * release.displacement_m.abs();
     for n in before..grid.samples {
         if n > before {
+            bolted_joint_wanted::look();
             for _ in 0..grid.steps {
                 law.advance(&mut place, grid.step_s);
             }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::Read as _;
 use std::path::Path;
 
-use bolted_joint_files::{inputs, text_file};
+use bolted_joint_files::{Encoding, inputs, text_file};
 use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
@@ -91,11 +91,14 @@ impl FileKind {
     }
 }
 
+/// In whatever encoding: its reader says that it should be UTF-8.
 fn text(path: &Path) -> Option<String> {
-    text_file::bytes(path)
-        .ok()
-        .flatten()
-        .and_then(|bytes| String::from_utf8(bytes).ok())
+    let bytes = text_file::bytes(path).ok().flatten()?;
+    Some(
+        Encoding::decoded(&bytes)
+            .trim_start_matches('\u{feff}')
+            .to_owned(),
+    )
 }
 
 /// A joint file is told by its format or, if it is damaged, by what stands in it.

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::column::{Column, Columns, Part, quantity, split_unit};
-use super::number::Decimal;
 use crate::{Dof, Quantity, TableProblem};
+use bolted_joint_files::Decimal;
 use bolted_joint_files::text_table::{Cells, separator};
 
 /// What comments of the form `# key = value` say of all functions.

@@ -21,6 +21,9 @@ use crate::tables::{
 /// How far from an interface a sensor, an impact or a bolt of it is at most, m.
 pub(crate) const FARTHEST_M: f64 = 3.0;
 
+/// A standard deviation of the set-up that is larger is in another unit.
+const MOST_DEVIATION: f64 = 1.0;
+
 /// Frequencies that are the same, in parts.
 const SAME: f64 = 1e-6;
 
@@ -430,13 +433,15 @@ impl Reader<'_> {
             BudgetTable::Deviations(own) => *own,
         };
         let value = |key: &str, given: Option<f64>, typical: f64| {
+            let value = given.unwrap_or(typical);
             let expected =
                 "a standard deviation above 0, or budget = \"none\" for a set-up that is exact";
-            self.study.positive(
-                format_args!("budget.{key}"),
-                given.unwrap_or(typical),
-                expected,
-            )
+            let key = format_args!("budget.{key}");
+            self.study.positive(key, value, expected)?;
+            let expected = "at most 1: a gain of 0.05 is 5 %, positions are in m, rotations in rad";
+            self.study
+                .ensure(value <= MOST_DEVIATION, key, value, expected)?;
+            Ok::<f64, StudyError>(value)
         };
         let tolerance = Tolerance {
             position_m: value("position", position, Tolerance::TYPICAL.position_m)?,

@@ -4,7 +4,7 @@ use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{
     Beam, BeamPoint, Damping, ModalModel, Motion, NamedMatrices, StructureError, Theory,
 };
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{BeamNumber, StudyError, StudyText};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::num::NonZeroU16;
 
@@ -98,6 +98,15 @@ pub(crate) fn structure(
 
 fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, StudyError> {
     let key = format!("{key}.beam");
+    for (number, found) in [
+        (BeamNumber::Length, table.length),
+        (BeamNumber::Width, table.width),
+        (BeamNumber::Height, table.height),
+        (BeamNumber::YoungsModulus, table.youngs_modulus),
+        (BeamNumber::Density, table.density),
+    ] {
+        study.plausible_in_beam(&key, number, found)?;
+    }
     let theory = match (table.theory, table.poissons_ratio) {
         (TheoryName::Timoshenko, None) => Theory::default(),
         (TheoryName::Timoshenko, Some(poissons_ratio)) => Theory::Timoshenko { poissons_ratio },

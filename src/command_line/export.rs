@@ -18,7 +18,9 @@ use bolted_joint::show::FileKind;
 use super::error::CliError;
 use super::invocation::platforms;
 use super::kind::expect;
-use super::output::{check_output, has_extension, is_standard_output, message, print, write_file};
+use super::output::{
+    Wrote, check_output, has_extension, is_standard_output, message, print, write_file,
+};
 use super::table::number;
 
 /// `export`
@@ -242,12 +244,12 @@ fn summary(exported: &Exported, fmu: &Path) -> String {
         .map(|library| library.platform.as_str())
         .collect();
     format!(
-        "wrote {} ({}, {} files, {} kB)\n\
+        "{} ({}, {} files, {} kB)\n\
          model: {}, {}\n\
          steps: {}\n\
          platforms: {}\n\
          token: {}\n",
-        fmu.display(),
+        Wrote(fmu),
         exported.version,
         exported.entries().len(),
         exported.bytes().len().div_ceil(1000),

@@ -27,7 +27,10 @@ use super::draws::{alone, among, numbers, write_part};
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
 use super::kind::expect_study;
-use super::output::{Ending, HTML, SVG, check_output, check_outputs, print, warn, write_files};
+use super::named_files::check_named;
+use super::output::{
+    Ending, HTML, SVG, Wrote, check_output, check_outputs, print, warn, write_files,
+};
 use super::progress::Progress;
 use super::table::{Table, number};
 
@@ -84,7 +87,14 @@ pub(super) fn run_with(
     )?;
     expect_study(&arguments.study)?;
     let study = StudyText::read(&arguments.study)?;
-    match study.method()? {
+    let method = study.method()?;
+    let outputs = [
+        Some(&arguments.output),
+        arguments.figure.as_ref(),
+        arguments.report.as_ref(),
+    ];
+    check_named(&study, &outputs)?;
+    match method {
         Method::FrfDecoupling => {}
         Method::FrfSpace => return space::run(arguments, &study),
         Method::LapUpdate => return lap::update(arguments, &study),
@@ -199,10 +209,10 @@ pub(super) fn run_with(
     let mut text = summary(&found, &study);
     text.push('\n');
     for path in &outputs {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = writeln!(text, "{}", Wrote(path));
     }
     for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = writeln!(text, "{}", Wrote(path));
     }
     print(&text)?;
     CliError::unless_usable(&outputs[0], &found.reasons_against)

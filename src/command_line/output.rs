@@ -1,7 +1,7 @@
 //! Writing of results: to files whole or not at all, to stdout with errors reported, messages to stderr.
 
 use std::cell::Cell;
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -251,6 +251,18 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
     Ok(stdout.flush()?)
 }
 
+/// Says that a file was written, or that standard output has it.
+pub(super) struct Wrote<'p>(pub(super) &'p Path);
+
+impl fmt::Display for Wrote<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match is_standard_output(self.0) {
+            true => f.write_str("wrote to standard output"),
+            false => write!(f, "wrote {}", self.0.display()),
+        }
+    }
+}
+
 /// Contents for paths: written all or none.
 pub(super) struct Outputs {
     files: Vec<(PathBuf, String)>,
@@ -282,7 +294,7 @@ impl Outputs {
         let mut text = String::new();
         for (path, _) in &self.files {
             // writing to a String cannot fail
-            let _ = writeln!(text, "wrote {}", path.display());
+            let _ = writeln!(text, "{}", Wrote(path));
         }
         text
     }

@@ -9,6 +9,8 @@ use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
 
+use crate::tables::TableKind;
+
 /// How much of a file is looked at before more of it is read.
 const LOOKED_AT: u64 = 4096;
 
@@ -17,6 +19,8 @@ const LOOKED_AT: u64 = 4096;
 pub enum FileKind {
     /// Measured functions, or what looks like a file of them.
     Functions(Container),
+    /// Numbers that are no functions, with what they are for.
+    Table(TableKind),
     /// Matrices of mass and stiffness of a structure.
     Matrices,
     /// Modes of a structure.
@@ -76,6 +80,7 @@ impl FileKind {
         {
             return match container {
                 Container::Universal if begins_with_shapes(path) => Self::Modes,
+                Container::Table => of_table(&beginning),
                 container => Self::Functions(container),
             };
         }
@@ -85,6 +90,7 @@ impl FileKind {
             (Some(TextKind::Assembly), _) => Self::Assembly,
             (Some(TextKind::Modes), _) => Self::Modes,
             // a comment and a misspelt key look like a table; the reader of TOML knows what the key should be
+            (None, Some(Container::Table)) if !named("toml") => of_table(&beginning),
             (None, Some(container)) if !named("toml") => Self::Functions(container),
             (None, _) => Self::Unknown,
         }
@@ -99,6 +105,18 @@ fn text(path: &Path) -> Option<String> {
             .trim_start_matches('\u{feff}')
             .to_owned(),
     )
+}
+
+/// Functions, unless its columns say that it is something else.
+fn of_table(beginning: &[u8]) -> FileKind {
+    let kind = TableKind::told_by(&Encoding::decoded(beginning));
+    kind.map_or(FileKind::Functions(Container::Table), FileKind::Table)
+}
+
+/// Whether a file has nothing in it.
+pub(crate) fn is_blank(path: &Path) -> bool {
+    let bytes = text_file::beginning(path).unwrap_or_default();
+    bytes.trim().is_empty()
 }
 
 /// A joint file is told by its format or, if it is damaged, by what stands in it.
@@ -156,6 +174,7 @@ impl fmt::Display for FileKind {
             Self::Functions(Container::Archive) => f.write_str("a NumPy archive (npz)"),
             Self::Functions(Container::SingleArray) => f.write_str("a NumPy array (npy)"),
             Self::Functions(Container::Matlab) => f.write_str("a MATLAB file (mat)"),
+            Self::Table(kind) => kind.fmt(f),
             Self::Matrices => f.write_str("matrices of a structure"),
             Self::Modes => f.write_str("modes of a structure"),
             Self::Study(Some(method)) => write!(f, "a study of method \"{method}\""),
@@ -194,14 +213,13 @@ pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
             "bolted-joint merge STUDY.toml {path} ... -o NAME.joint.json"
         )),
         FileKind::Fmu => Some(format!("bolted-joint check {path}")),
-        FileKind::Functions(_) | FileKind::Matrices | FileKind::Modes | FileKind::Study(None) => {
-            Some(format!("bolted-joint show {path}"))
-        }
-        FileKind::Ssp
-        | FileKind::OtherJson
-        | FileKind::OtherZip
-        | FileKind::Folder
-        | FileKind::Unknown => None,
+        FileKind::Functions(_)
+        | FileKind::Table(_)
+        | FileKind::Matrices
+        | FileKind::Modes
+        | FileKind::Ssp
+        | FileKind::Study(None) => Some(format!("bolted-joint show {path}")),
+        FileKind::OtherJson | FileKind::OtherZip | FileKind::Folder | FileKind::Unknown => None,
     }
 }
 
@@ -213,9 +231,10 @@ mod tests {
     fn files_are_told_by_what_is_in_them() {
         let folder = tempfile::tempdir().unwrap();
         #[rustfmt::skip]
-        let cases: [(&str, &[u8], FileKind); 18] = [
+        let cases: [(&str, &[u8], FileKind); 19] = [
             ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
+            ("s.csv", b"time_s,displacement_m\n", FileKind::Table(TableKind::Decay)),
             ("a.csv", b"1,2\n", FileKind::Functions(Container::Table)),
             ("a", b"# quantity = mobility\nfrequency,1\n", FileKind::Functions(Container::Table)),
             ("a.npy", b"\x93NUMPY\x01", FileKind::Functions(Container::SingleArray)),

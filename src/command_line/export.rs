@@ -19,7 +19,7 @@ use super::error::CliError;
 use super::invocation::platforms;
 use super::kind::expect;
 use super::output::{
-    Wrote, check_output, has_extension, is_standard_output, message, print, write_file,
+    Wrote, check_fmu, has_extension, is_standard_output, message, print, write_file,
 };
 use super::table::number;
 
@@ -177,7 +177,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         let found = arguments.output.display();
         return Err(CliError::option("--output", found, expected));
     }
-    check_output(&arguments.output, &[&arguments.joint_file])?;
+    check_fmu(&arguments.output, &[&arguments.joint_file])?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for reason in &exported.reasons_against {
         message(&format!("warning: not to be relied on: {reason}"));

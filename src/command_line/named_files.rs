@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use bolted_joint::show::FileKind;
 use bolted_joint::study::{NamedFile, StudyText};
 
 use super::error::CliError;
@@ -23,12 +24,51 @@ pub(super) fn check_named_but_assembly(
     check(text, &files, outputs)
 }
 
+/// Refuses a file of functions or modes that is plainly something else: their readers know nothing of other kinds.
+fn check_kind(text: &StudyText, file: &NamedFile) -> Result<(), CliError> {
+    let key = file.key.rsplit('.').next().unwrap_or_default();
+    let expected = match key {
+        "frf" | "coherence" => {
+            "a file of measured functions: universal file, table (CSV), NPZ or MAT"
+        }
+        "modal" => "a file of modes",
+        _ => return Ok(()),
+    };
+    let kind = FileKind::of(&file.path);
+    let is_toml = file
+        .path
+        .extension()
+        .is_some_and(|own| own.eq_ignore_ascii_case("toml"));
+    let is_other = match kind {
+        FileKind::Modes => key != "modal" && is_toml,
+        FileKind::Study(_)
+        | FileKind::Assembly
+        | FileKind::Table(_)
+        | FileKind::JointFile
+        | FileKind::Draws
+        | FileKind::Fmu
+        | FileKind::Ssp
+        | FileKind::Folder => true,
+        _ => false,
+    };
+    match is_other {
+        true => {
+            let found = format!("{:?}, {kind}", file.name);
+            Err(text.refusal(&file.key, found, expected).into())
+        }
+        false => Ok(()),
+    }
+}
+
 fn check(
     text: &StudyText,
     files: &[NamedFile],
     outputs: &[Option<&PathBuf>],
 ) -> Result<(), CliError> {
     text.check_is_there(files)?;
+    for file in files {
+        check_kind(text, file)?;
+    }
     for output in outputs.iter().flatten() {
         let Ok(whole) = fs::canonicalize(output) else {
             continue;

@@ -90,6 +90,8 @@ pub(super) enum Ending {
     In(&'static [&'static str], &'static str),
     /// In anything but what another kind of file ends in.
     OfJointFile,
+    /// The same of an FMU.
+    OfFmu,
 }
 
 pub(super) const CSV: Ending = Ending::In(&["csv"], "a name that ends in .csv");
@@ -113,6 +115,9 @@ impl Ending {
             Self::OfJointFile => is_of_another_kind(path).then_some(
                 "a name for the joint file, such as NAME.joint.json; `export` makes an FMU of it",
             ),
+            Self::OfFmu => (!is_in(&["fmu"])
+                && (is_of_another_kind(path) || is_in(&["json", "txt"])))
+            .then_some("a name for an FMU, such as NAME.fmu"),
             Self::Any => None,
         }
     }
@@ -145,6 +150,18 @@ pub(super) fn check_outputs<'a>(
         taken.push(path);
     }
     misnamed.map_or(Ok(taken), Err)
+}
+
+/// Refuses the name of another kind of file for an FMU, and notes where it has none that importers look for.
+pub(super) fn check_fmu(path: &Path, others: &[&PathBuf]) -> Result<(), CliError> {
+    check_output(path, others)?;
+    if let Some(expected) = Ending::OfFmu.expected_for(path) {
+        return Err(CliError::option("--output", path.display(), expected));
+    }
+    if !has_extension(path, "fmu") && !is_standard_output(path) {
+        note(&["importers look for a name that ends in .fmu".to_owned()]);
+    }
+    Ok(())
 }
 
 /// Refuses a `--plot` that is no page and no picture, cannot be written or would replace one of the files that are read.

@@ -86,6 +86,32 @@ fn a_missing_file_is_told_with_its_key() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_told_with_its_key() {
+    let bench = rig::ready();
+    bench.write("j.json", JOINT);
+    bench.edit("study.toml", "\"c.uff\"", "\"j.json\"");
+    let told = [
+        "study.toml: `assembly.frf`: found \"j.json\", a joint file, expected a file of measured functions",
+    ];
+    bench.refused(IDENTIFY, &told);
+}
+
+#[test]
+fn an_fmu_has_the_name_of_one() {
+    let bench = Bench::new();
+    bench.write("j.json", JOINT);
+    for name in ["o.txt", "o.json", "o.csv"] {
+        let told = [&format!("--output: found {name}"), "such as NAME.fmu"];
+        bench.refused(&format!("export j.json -o {name}"), &told);
+    }
+    let outcome = bench.done("export j.json -o o");
+    has(
+        &outcome.stderr,
+        &["note: importers look for a name that ends in .fmu"],
+    );
+}
+
+#[test]
 fn an_output_that_a_study_names_is_refused_before_anything_is_computed() {
     let bench = files_of("predict-four-bolts");
     let told = ["a-2.csv: found it to be the file that `surface.a.profiles` of study.toml names"];
@@ -93,6 +119,31 @@ fn an_output_that_a_study_names_is_refused_before_anything_is_computed() {
         "predict study.toml -o o.joint.json --field-csv a-2.csv",
         &told,
     );
+}
+
+#[test]
+fn a_measurement_that_is_named_twice_is_refused() {
+    let bench = rig::ready();
+    let text = bench.text("study.toml");
+    let (before, rest) = text.split_once("[assembly]\n").unwrap();
+    let (assembly, after) = rest.split_once("\n[").unwrap();
+    bench.write(
+        "study.toml",
+        format!("{before}[assembly]\n{assembly}\nrepeats = [\"./c.uff\"]\n[{after}"),
+    );
+    let told = [
+        "`assembly`: found \"./c.uff\" twice",
+        "it would count as two",
+    ];
+    bench.refused(IDENTIFY, &told);
+    let one = format!("[[assembly]]\n{assembly}\n");
+    bench.write("study.toml", format!("{before}{one}{one}[{after}"));
+    let told = ["`assembly[2].frf`: found c.uff with the same points"];
+    bench.refused(IDENTIFY, &told);
+    let bench = files_of("predict-four-bolts");
+    bench.edit("study.toml", "\"a-2.csv\"", "\"a-1.csv\"");
+    let told = ["`surface.a.profiles`: found \"a-1.csv\" twice"];
+    bench.refused("predict study.toml -o o.joint.json", &told);
 }
 
 #[test]

@@ -50,8 +50,8 @@ pub enum TextFileError {
     },
     /// Text, but not in UTF-8.
     #[error(
-        "{}, line {line}: found text in {encoding}, expected {expected} in UTF-8; save it with this encoding, which editors offer \
-         beside the name of the file",
+        "{}, line {line}: found text in {encoding}, expected {expected} in UTF-8; save it as UTF-8, an encoding that editors offer \
+         beside the file's name",
         path.display()
     )]
     Encoding {

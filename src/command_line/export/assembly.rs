@@ -9,7 +9,7 @@ use bolted_joint::study::StudyText;
 use super::super::error::CliError;
 use super::super::invocation::platforms;
 use super::super::named_files::check_named;
-use super::super::output::{Wrote, check_output, message, note, print, warn};
+use super::super::output::{Wrote, check_fmu, message, note, print, warn};
 use super::super::table::number;
 use super::{ExportArguments, system};
 
@@ -31,8 +31,8 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     }
     arguments.refuse_options_of_systems("none: it is for an SSP; write one with -o NAME.ssp")?;
     let text = StudyText::read(&arguments.joint_file)?;
-    check_output(&arguments.output, &[&arguments.joint_file])?;
     check_named(&text, &[Some(&arguments.output)])?;
+    check_fmu(&arguments.output, &[&arguments.joint_file])?;
     let model = AssemblyModel::of(&text)?;
     let options = AssemblyOptions {
         version: arguments.fmi.map_or_else(Default::default, Into::into),

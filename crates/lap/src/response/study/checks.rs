@@ -1,9 +1,5 @@
 //! What single keys of a study may hold.
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
-
 use bolted_joint_dynamics::law::Term;
 use bolted_joint_study::{StudyError, StudyText};
 
@@ -79,24 +75,4 @@ pub(super) fn band_hz(study: &StudyText, [from, to]: [f64; 2]) -> Result<[f64; 2
         expected,
     )?;
     Ok([from, to])
-}
-
-/// A file that is named twice would count as two measurements, and halve the variances of what it tells.
-pub(super) fn every_file_once<'f>(
-    study: &StudyText,
-    kind: &str,
-    files: impl Iterator<Item = &'f Path>,
-) -> Result<(), StudyError> {
-    let mut seen = BTreeSet::new();
-    for file in files {
-        let path = study.resolved(file);
-        let is_new = seen.insert(fs::canonicalize(&path).unwrap_or(path));
-        study.ensure(
-            is_new,
-            format_args!("{kind}.file"),
-            format_args!("\"{}\" twice", file.display()),
-            "every measurement once: it would count as two",
-        )?;
-    }
-    Ok(())
 }

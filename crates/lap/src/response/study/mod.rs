@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use self::checks::{band_hz, every_file_once, known, terms_of};
+use self::checks::{band_hz, known, terms_of};
 use self::noise::noise;
 use self::tables::StudyFile;
 use super::backbone::{BackboneRun, read_backbone, read_decay};
@@ -193,11 +193,11 @@ impl LapResponseStudy {
         let range_hz = study.frequency_range_hz(&file.frequency)?;
         let known = known(study, &file)?;
         let files = file.sine.iter().map(|own| own.file.as_path());
-        every_file_once(study, "sine", files)?;
+        study.every_file_once("sine.file", files)?;
         let files = file.backbone.iter().map(|own| own.file.as_path());
-        every_file_once(study, "backbone", files)?;
+        study.every_file_once("backbone.file", files)?;
         let files = file.decay.iter().map(|own| own.file.as_path());
-        every_file_once(study, "decay", files)?;
+        study.every_file_once("decay.file", files)?;
         let sines = file.sine.into_iter().map(|table| {
             let phase_sign = match table.phase_sign {
                 None | Some(1) => 1.0,

@@ -65,6 +65,14 @@ pub(super) struct IdentifyArguments {
     pub(super) json: bool,
 }
 
+/// The methods that this command is for.
+const METHODS: [Method; 4] = [
+    Method::FrfDecoupling,
+    Method::FrfSpace,
+    Method::LapUpdate,
+    Method::LapResponse,
+];
+
 /// At most so many functions are drawn.
 const PANELS: usize = 3;
 
@@ -88,6 +96,7 @@ pub(super) fn run_with(
     expect_study(&arguments.study)?;
     let study = StudyText::read(&arguments.study)?;
     let method = study.method()?;
+    study.check_method(method, &METHODS)?;
     let outputs = [
         Some(&arguments.output),
         arguments.figure.as_ref(),
@@ -99,15 +108,7 @@ pub(super) fn run_with(
         Method::FrfSpace => return space::run(arguments, &study),
         Method::LapUpdate => return lap::update(arguments, &study),
         Method::LapResponse => return lap::response(arguments, &study),
-        other => {
-            let methods = [
-                Method::FrfDecoupling,
-                Method::FrfSpace,
-                Method::LapUpdate,
-                Method::LapResponse,
-            ];
-            study.check_method(other, &methods)?;
-        }
+        other => study.check_method(other, &METHODS)?,
     }
     let written = arguments.report.as_ref();
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;

@@ -112,11 +112,15 @@ fn suggestion(missing: &Path) -> String {
         .collect();
     names.sort();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    // that endings are alike says nothing
+    let stem = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
     let wanted = missing.file_name().and_then(|name| name.to_str());
-    match wanted.and_then(|wanted| nearest(wanted, &names)) {
-        Some(name) => format!("; did you mean `{name}`?"),
-        None => String::new(),
-    }
+    let meant = wanted.and_then(|wanted| {
+        let name = nearest(wanted, &names)?;
+        nearest(&stem(wanted), &[stem(name).as_str()])?;
+        Some(name)
+    });
+    meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
 #[cfg(test)]
@@ -126,8 +130,8 @@ mod tests {
     #[test]
     fn files_are_named_by_their_keys_and_missing_ones_told() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("b.uff"), "").unwrap();
-        let text = "name = \"x.uff\"\n[a]\nfrf = [\"b.uff\", \"bb.uff\"]\njoint = { y = \"2:+Y\" }\n[[assembly]]\nfrf = \"b.uff\"\n\
+        fs::write(folder.path().join("beam.uff"), "").unwrap();
+        let text = "name = \"x.uff\"\n[a]\nfrf = [\"beam.uff\", \"baem.uff\"]\njoint = { y = \"2:+Y\" }\n[[assembly]]\nfrf = \"beam.uff\"\n\
                     [[assembly]]\nfrf = \"C:\\temp.uff\"\n";
         let study = StudyText::new(text, &folder.path().join("study.toml"));
         let files = study.named_files();
@@ -138,10 +142,10 @@ mod tests {
         );
         let refused = study.check_is_there(&files).unwrap_err().to_string();
         assert!(
-            refused.contains("`a.frf`: found \"bb.uff\", which is not there"),
+            refused.contains("`a.frf`: found \"baem.uff\", which is not there"),
             "{refused}"
         );
-        assert!(refused.ends_with("did you mean `b.uff`?"), "{refused}");
+        assert!(refused.ends_with("did you mean `beam.uff`?"), "{refused}");
         let refused = study.check_is_there(&files[3..]).unwrap_err().to_string();
         assert!(refused.contains("\"C:\\temp.uff\""), "{refused}");
         assert!(refused.ends_with(ESCAPES), "{refused}");

@@ -9,13 +9,15 @@ use super::super::study::Study;
 /// Warnings of bands that hold no line of any assembly.
 ///
 /// # Errors
-/// Where an entry has no other bands, and so no average.
+/// Where none does.
 pub(super) fn warnings(study: &Study, all: &[Lines]) -> Result<Vec<String>, StudyError> {
     let lines = || all.iter().flat_map(|lines| &lines.frequency_hz);
     let is_empty = |&&[from, to]: &&[f64; 2]| !lines().any(|hz| (from..=to).contains(hz));
     let first = lines().copied().fold(f64::INFINITY, f64::min);
     let last = lines().copied().fold(0.0, f64::max);
+    let used = format!("the lines that are used go from {first} to {last} Hz");
     let mut warnings = Vec::new();
+    let mut any_holds_lines = false;
     for &entry in study.model.entries() {
         let BandChoice::Given(bands) = study.bands.of_entry(entry) else {
             continue;
@@ -25,17 +27,24 @@ pub(super) fn warnings(study: &Study, all: &[Lines]) -> Result<Vec<String>, Stud
             .filter(is_empty)
             .map(|[from, to]| format!("[{from}, {to}]"))
             .collect();
-        if empty.is_empty() {
-            continue;
+        let has_none = empty.len() == bands.len();
+        any_holds_lines |= !has_none;
+        if !empty.is_empty() {
+            let (key, list) = (name(entry), empty.join(", "));
+            let so = if has_none {
+                ", so that it has no average"
+            } else {
+                ""
+            };
+            warnings.push(format!(
+                "`bands.{key}`: found no line in {list}: {used}{so}"
+            ));
         }
-        let key = format!("bands.{}", name(entry));
-        let found = format!("no line in {}", empty.join(", "));
-        let used = format!("the lines that are used go from {first} to {last} Hz");
-        if empty.len() == bands.len() {
-            let expected = format!("bands with lines: {used}");
-            return Err(StudyError::value(&study.path, key, found, expected));
-        }
-        warnings.push(format!("`{key}`: found {found}: {used}"));
+    }
+    if !warnings.is_empty() && !any_holds_lines {
+        let expected = format!("bands with lines: {used}");
+        let found = "no line in any band";
+        return Err(StudyError::value(&study.path, "bands", found, expected));
     }
     Ok(warnings)
 }

@@ -166,6 +166,14 @@ fn a_decay_of_several_modes_is_refused_and_names_them() {
 }
 
 #[test]
+fn noise_in_per_cent_is_refused() {
+    let table = format!("{HEADER}\n80,1,1e-4,-1.5\n81,1,1e-4,-2\n");
+    let noise = "[[sine]]\nfile = \"run.csv\"\n[noise]\nresponse = 5\n";
+    let error = refusal(RESPONSE, ("[[sine]]\nfile = \"run.csv\"\n", noise), &table);
+    has(&error, &["`noise.response`: found 5", "0.05 is 5 %"]);
+}
+
+#[test]
 fn a_file_that_is_named_twice_is_no_second_measurement() {
     let table = format!("{HEADER}\n80,1,1e-4,-1.5\n81,1,1e-4,-2\n");
     let again = "file = \"run.csv\"\n[[sine]]\nfile = \"./run.csv\"\nuse = \"predict\"\n";

@@ -4,7 +4,8 @@ use std::fmt;
 use std::io::Read as _;
 use std::path::Path;
 
-use bolted_joint_files::{Encoding, inputs, text_file};
+use bolted_joint_files::text_table::{self, Cells};
+use bolted_joint_files::{Decimal, Encoding, inputs, text_file};
 use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
@@ -90,7 +91,10 @@ impl FileKind {
             (Some(TextKind::Assembly), _) => Self::Assembly,
             (Some(TextKind::Modes), _) => Self::Modes,
             // a comment and a misspelt key look like a table; the reader of TOML knows what the key should be
-            (None, Some(Container::Table)) if !named("toml") => of_table(&beginning),
+            (None, Some(Container::Table)) if !named("toml") => match has_numbers(&beginning) {
+                true => of_table(&beginning),
+                false => Self::Unknown,
+            },
             (None, Some(container)) if !named("toml") => Self::Functions(container),
             (None, _) => Self::Unknown,
         }
@@ -111,6 +115,22 @@ fn text(path: &Path) -> Option<String> {
 fn of_table(beginning: &[u8]) -> FileKind {
     let kind = TableKind::told_by(&Encoding::decoded(beginning));
     kind.map_or(FileKind::Functions(Container::Table), FileKind::Table)
+}
+
+/// Whether one of the rows below the names begins with a number, as those of a table do, and those of a text or a script do not.
+fn has_numbers(beginning: &[u8]) -> bool {
+    let text = Encoding::decoded(beginning);
+    let mut rows = text_table::rows(&text);
+    let Some((_, names)) = rows.next() else {
+        return false;
+    };
+    let separator = text_table::separator(names);
+    let mut cells = Cells::separated_by(separator);
+    // units may stand in a row of their own
+    rows.take(3).any(|(_, row)| {
+        let first = cells.of(row).first().copied().unwrap_or_default().to_owned();
+        Decimal::beside(separator).parse(&first).is_some()
+    })
 }
 
 /// Whether a file has nothing in it.
@@ -231,12 +251,13 @@ mod tests {
     fn files_are_told_by_what_is_in_them() {
         let folder = tempfile::tempdir().unwrap();
         #[rustfmt::skip]
-        let cases: [(&str, &[u8], FileKind); 19] = [
+        let cases: [(&str, &[u8], FileKind); 20] = [
             ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("s.csv", b"time_s,displacement_m\n", FileKind::Table(TableKind::Decay)),
             ("a.csv", b"1,2\n", FileKind::Functions(Container::Table)),
-            ("a", b"# quantity = mobility\nfrequency,1\n", FileKind::Functions(Container::Table)),
+            ("a", b"# quantity = mobility\nfrequency,1\n2,3\n", FileKind::Functions(Container::Table)),
+            ("a.md", b"# A title\n\nA sentence, and another.\nMore.\n", FileKind::Unknown),
             ("a.npy", b"\x93NUMPY\x01", FileKind::Functions(Container::SingleArray)),
             ("a.dat", b"MATLAB 5.0 MAT-file", FileKind::Functions(Container::Matlab)),
             ("j.joint.json", b"{\"format\": \"bolted-joint/1\"}", FileKind::JointFile),

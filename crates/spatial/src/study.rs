@@ -193,7 +193,9 @@ impl Reader<'_> {
             )?;
             let expected =
                 "noise in parts of each value, such as 0.01; without the key there is none";
-            self.study.positive(key, part, expected)
+            self.study.positive(key, part, expected)?;
+            self.study.part_of_whole(key, part)?;
+            Ok::<f64, StudyError>(part)
         };
         Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])
     }
@@ -223,14 +225,14 @@ impl Reader<'_> {
 
     /// The noise of the assembly's functions.
     pub(crate) fn level(&self, table: &NoiseTable) -> Result<Level, StudyError> {
-        Ok(match table.relative {
-            None => Level::OfResiduals,
-            Some(part) => Level::Relative(self.study.positive(
-                "noise.relative",
-                part,
-                "noise in parts of each function's r.m.s., such as 0.01",
-            )?),
-        })
+        let Some(part) = table.relative else {
+            return Ok(Level::OfResiduals);
+        };
+        let key = "noise.relative";
+        let expected = "noise in parts of each function's r.m.s., such as 0.01";
+        self.study.positive(key, part, expected)?;
+        self.study.part_of_whole(key, part)?;
+        Ok(Level::Relative(part))
     }
 
     pub(crate) fn sensor(

@@ -86,6 +86,15 @@ impl StudyText {
         Ok(value)
     }
 
+    /// A standard deviation that is a part of the value: one beyond the whole was meant in per cent.
+    ///
+    /// # Errors
+    /// [`StudyError::Value`] if it is above 1.
+    pub fn part_of_whole(&self, key: impl Display, value: f64) -> Result<(), StudyError> {
+        let expected = "a part of the whole, at most 1: 0.05 is 5 %";
+        self.ensure(value <= 1.0, key, value, expected)
+    }
+
     /// A number within a range.
     ///
     /// # Errors

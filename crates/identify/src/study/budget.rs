@@ -93,9 +93,6 @@ impl<'de> Deserialize<'de> for Deviation {
     }
 }
 
-/// A relative standard deviation that is larger was meant in per cent.
-const MOST_RELATIVE: f64 = 1.0;
-
 /// What a study says of its budget; that of a careful laboratory if it says nothing.
 pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget, StudyError> {
     let table = match key {
@@ -112,13 +109,9 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
             format!("a standard deviation{unit} that is finite and not negative, or \"exact\"");
         let key = format_args!("budget.{name}");
         study.not_negative(key, value, expected)?;
-        let expected = "a part of the whole, at most 1: 0.05 is 5 %";
-        study.ensure(
-            !unit.is_empty() || value <= MOST_RELATIVE,
-            key,
-            value,
-            expected,
-        )?;
+        if unit.is_empty() {
+            study.part_of_whole(key, value)?;
+        }
         Ok::<f64, StudyError>(value)
     };
     Ok(Budget {

@@ -174,10 +174,19 @@ fn beams_and_points_of_an_assembly_are_checked() {
          ["`structures.free.beam.length`: found 335", "is it in millimetres?"]),
         ("length = 0.335, width = 0.03, height = 0.006, youngs_modulus = 70e9", "length = 0.335, width = 0.03, height = 0.006, youngs_modulus = 70",
          ["`structures.free.beam.youngs_modulus`: found 70", "is it in GPa or MPa?"]),
+        ("\"12:+Y\" = 0.335 }\nmodes = 10", "\"12:+Y\" = 0.335 }\nmodes = 1",
+         ["`structures.free.modes`: found 1", "2 or more: the structure moves freely"]),
         ("push = \"free/12:+Y\"", "push = \"free12:+Y\"", ["`inputs.push`: found \"free12:+Y\"", "did you mean \"free/12:+Y\"?"]),
         ("push = \"free/12:+Y\"", "push = \"free/13:+Y\"", ["`inputs.push`: found 13:+Y", "a point of structure free: 1:+Y, 1:+RZ, 12:+Y"]),
     ];
     bench.refused_edits("export beams.toml -o o.fmu", ("beams.toml", &text), &cases);
+    // points of the clamped end do not move, and no load bends the beam there
+    let clamped = text.replace(
+        "\"1:+Y\" = 0.3, \"1:+RZ\" = 0.3",
+        "\"1:+Y\" = 0.0, \"1:+RZ\" = 0.0",
+    );
+    bench.write("beams.toml", clamped);
+    bench.done("export beams.toml -o o.fmu");
 }
 
 #[test]

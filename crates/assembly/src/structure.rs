@@ -60,7 +60,12 @@ pub(crate) fn structure(
             points_beside("a file of matrices")?;
             let matrices = NamedMatrices::read(&study.resolved(&path)).map_err(failed)?;
             (
-                of_matrices(study, &key, &matrices, failed)?.cut_to(kept),
+                cut(
+                    study,
+                    &key,
+                    of_matrices(study, &key, &matrices, failed)?,
+                    kept,
+                )?,
                 Vec::new(),
             )
         }
@@ -79,7 +84,7 @@ pub(crate) fn structure(
                 "the positions of its points along the beam in m, such as { \"1:+Y\" = 0.0, \"1:+RZ\" = 0.0 }",
             )?;
             (
-                of_beam(&beam, &points).map_err(failed)?.cut_to(kept),
+                cut(study, &key, of_beam(&beam, &points).map_err(failed)?, kept)?,
                 Vec::new(),
             )
         }
@@ -94,6 +99,18 @@ pub(crate) fn structure(
         }
     };
     Ok(form)
+}
+
+/// The structure with so many modes, which have to be enough for its free motions.
+fn cut(study: &StudyText, key: &str, all: AllModes, kept: usize) -> Result<ModalForm, StudyError> {
+    let rigid = all.rigid();
+    study.ensure(
+        kept >= rigid,
+        format_args!("{key}.modes"),
+        kept,
+        format_args!("{rigid} or more: the structure moves freely in so many ways"),
+    )?;
+    Ok(all.cut_to(kept))
 }
 
 fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, StudyError> {

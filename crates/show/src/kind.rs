@@ -128,7 +128,12 @@ fn has_numbers(beginning: &[u8]) -> bool {
     let mut cells = Cells::separated_by(separator);
     // units may stand in a row of their own
     rows.take(3).any(|(_, row)| {
-        let first = cells.of(row).first().copied().unwrap_or_default().to_owned();
+        let first = cells
+            .of(row)
+            .first()
+            .copied()
+            .unwrap_or_default()
+            .to_owned();
         Decimal::beside(separator).parse(&first).is_some()
     })
 }

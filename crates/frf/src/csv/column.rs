@@ -103,10 +103,7 @@ pub(super) fn split_unit(name: &str) -> (&str, Option<&str>) {
         _ => None,
     };
     match place {
-        Some(at) => (
-            name[..at].trim(),
-            Some(name[at + 1..name.len() - 1].trim()),
-        ),
+        Some(at) => (name[..at].trim(), Some(name[at + 1..name.len() - 1].trim())),
         None => (name, None),
     }
 }

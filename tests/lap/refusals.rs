@@ -176,7 +176,7 @@ fn noise_in_per_cent_is_refused() {
 #[test]
 fn a_file_that_is_named_twice_is_no_second_measurement() {
     let table = format!("{HEADER}\n80,1,1e-4,-1.5\n81,1,1e-4,-2\n");
-    let again = "file = \"run.csv\"\n[[sine]]\nfile = \"./run.csv\"\nuse = \"predict\"\n";
+    let again = "file = \"run.csv\"\n[[sine]]\nfile = \"./run.csv\"\n";
     let error = refusal(RESPONSE, ("file = \"run.csv\"\n", again), &table);
     has(
         &error,

@@ -462,7 +462,7 @@ impl Study {
         let mut assemblies = Vec::new();
         for table in file.assembly {
             let measured = std::iter::once(&table.frf).chain(&table.repeats);
-            let files = measured.flat_map(Paths::iter).map(PathBuf::as_path);
+            let files = measured.map(|paths| paths.first.as_path());
             study.every_file_once("assembly", files)?;
             let own = |key, table: Option<_>, otherwise: &Substructure| match table {
                 Some(table) => check::substructure(study, key, table, model, &bolts),

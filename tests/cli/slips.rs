@@ -55,6 +55,11 @@ fn a_study_without_functions_says_which_of_its_lines_are_missing() {
         "`--step 1`",
     ];
     bench.refused("respond study.toml -o o.csv", &told);
+    let told = [
+        "`assembly.frf`: found nothing",
+        "`bolted-joint respond --plan`",
+    ];
+    bench.refused(IDENTIFY, &told);
 }
 
 #[test]

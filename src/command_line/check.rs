@@ -24,6 +24,7 @@ use super::error::CliError;
 use super::flexible_neighbours::of_assembly;
 use super::invocation::{Program, program};
 use super::kind::expect;
+use super::named_files::check_named;
 use super::output::{print, warn};
 use super::table::number;
 
@@ -196,6 +197,7 @@ fn assembly_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliE
         .neighbours
         .refuse("an assembly file, which has the neighbours of its joints")?;
     let text = StudyText::read(path)?;
+    check_named(&text, &[])?;
     let model = AssemblyModel::of(&text)?;
     warn(&model.warnings);
     let names = |all: &mut dyn Iterator<Item = &String>| {

@@ -39,9 +39,11 @@ const NOTABLE: f64 = 1.96;
 pub(super) fn run(arguments: &CompareArguments) -> Result<(), CliError> {
     check_plot(arguments.plot.as_ref(), &arguments.joint_files)?;
     let mut joints = Vec::new();
+    let mut any_is_over_preload = false;
     for path in &arguments.joint_files {
         expect_joint_file(path)?;
         let file = JointFile::read(path)?;
+        any_is_over_preload |= file.joint.over_preload.is_some();
         let file = match (arguments.preload, &file.joint.over_preload) {
             (Some(preload), Some(_)) => {
                 let at = file.at_preload(Some(preload));
@@ -53,6 +55,12 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<(), CliError> {
             _ => file,
         };
         joints.push((path.display().to_string(), file));
+    }
+    if let Some(preload) = arguments.preload
+        && !any_is_over_preload
+    {
+        let expected = "none: none of the joints depends on the preload";
+        return Err(CliError::option("--preload", preload, expected));
     }
     let comparison = Comparison::of(&joints)?;
     if let Some(path) = &arguments.plot {

@@ -11,10 +11,12 @@ use bolted_joint::convert::{Converted, Options, Target, convert, convert_assembl
 use bolted_joint::joint::JointFile;
 use bolted_joint::show::FileKind;
 use bolted_joint::study::StudyText;
+use bolted_joint_dynamics::DofKind;
 
 use super::error::CliError;
 use super::kind::expect;
-use super::output::{check_output, print, warn, write_file};
+use super::named_files::check_named;
+use super::output::{Wrote, check_output, print, warn, write_file};
 
 /// `convert`
 #[derive(Debug, Args)]
@@ -27,15 +29,15 @@ pub(super) struct ConvertArguments {
     /// File to write; a function of MATLAB and a package of Modelica get its name
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Nodes on sides a and b
-    #[arg(long, value_name = "A,B", value_delimiter = ',', default_value = "1,2", value_parser = clap::value_parser!(u32).range(1..))]
-    nodes: Vec<u32>,
-    /// Nodes whose displacements are the rotations of sides a and b (CalculiX)
-    #[arg(long, value_name = "A,B", value_delimiter = ',', default_value = "3,4", value_parser = clap::value_parser!(u32).range(1..))]
-    rotation_nodes: Vec<u32>,
-    /// First of free numbers for elements, properties and auxiliary nodes
-    #[arg(long, value_name = "NUMBER", default_value_t = 1001, value_parser = clap::value_parser!(u32).range(1..99_999_000))]
-    first_number: u32,
+    /// Nodes on sides a and b, for programs of finite elements [default: 1,2]
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    nodes: Option<Vec<u32>>,
+    /// Nodes whose displacements are the rotations of sides a and b, for CalculiX [default: 3,4]
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    rotation_nodes: Option<Vec<u32>>,
+    /// First of free numbers for elements, properties and auxiliary nodes, for programs of finite elements [default: 1001]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..99_999_000))]
+    first_number: Option<u32>,
     /// Preload at which a joint over the preload is taken, N·m
     #[arg(long, value_name = "TORQUE", allow_hyphen_values = true)]
     preload: Option<f64>,
@@ -76,8 +78,12 @@ impl From<TargetArgument> for Target {
     }
 }
 
+/// First number for elements where none is given.
+const FIRST_NUMBER: u32 = 1001;
+
 pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
     let target = Target::from(arguments.target);
+    refuse_what_has_no_effect(arguments, target)?;
     check_output(&arguments.output, &[&arguments.joint_file])?;
     let kind = expect(
         &arguments.joint_file,
@@ -103,6 +109,11 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         }
         _ => file,
     };
+    let mut dofs = file.joint.dofs.rows();
+    if arguments.rotation_nodes.is_some() && !dofs.any(|dof| dof.kind == DofKind::Rotation) {
+        let expected = "none: the joint has no rotation";
+        return Err(CliError::option("--rotation-nodes", "it", expected));
+    }
     let options = options(arguments, &file.name)?;
     let converted = convert(&file, target, &options).map_err(|source| CliError::Unconvertible {
         path: arguments.joint_file.clone(),
@@ -130,6 +141,7 @@ fn assembly(arguments: &ConvertArguments, target: Target) -> Result<(), CliError
         ));
     }
     let text = StudyText::read(&arguments.joint_file)?;
+    check_named(&text, &[Some(&arguments.output)])?;
     let model = AssemblyModel::of(&text)?;
     warn(&model.warnings);
     let options = options(arguments, &model.name)?;
@@ -152,11 +164,41 @@ fn assembly(arguments: &ConvertArguments, target: Target) -> Result<(), CliError
 fn options(arguments: &ConvertArguments, name: &str) -> Result<Options, CliError> {
     Ok(Options {
         identifier: name_of(arguments, name),
-        nodes: pair("--nodes", &arguments.nodes)?,
-        rotation_nodes: pair("--rotation-nodes", &arguments.rotation_nodes)?,
-        first_number: arguments.first_number,
+        nodes: pair("--nodes", arguments.nodes.as_deref().unwrap_or(&[1, 2]))?,
+        rotation_nodes: pair(
+            "--rotation-nodes",
+            arguments.rotation_nodes.as_deref().unwrap_or(&[3, 4]),
+        )?,
+        first_number: arguments.first_number.unwrap_or(FIRST_NUMBER),
         at_rest: arguments.at_rest,
     })
+}
+
+/// Refuses numbers of nodes and elements for a tool that has none.
+fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Result<(), CliError> {
+    let has_nodes = !matches!(target, Target::Matlab | Target::Modelica);
+    let of_elements = "none: MATLAB and Modelica have no nodes or elements; it is for Nastran, Abaqus, CalculiX and ANSYS";
+    let of_rotations =
+        "none: it is for CalculiX, where rotations are displacements of nodes of their own";
+    let options = [
+        ("--nodes", arguments.nodes.is_some(), has_nodes, of_elements),
+        (
+            "--first-number",
+            arguments.first_number.is_some(),
+            has_nodes,
+            of_elements,
+        ),
+        (
+            "--rotation-nodes",
+            arguments.rotation_nodes.is_some(),
+            target == Target::Calculix,
+            of_rotations,
+        ),
+    ];
+    match options.iter().find(|(_, given, means, _)| *given && !means) {
+        Some((option, _, _, expected)) => Err(CliError::option(option, "it", expected)),
+        None => Ok(()),
+    }
 }
 
 /// Writes the file, and tells what was written.
@@ -176,11 +218,7 @@ fn write(
         });
         print(&serde_json::to_string_pretty(&value)?)
     } else {
-        let mut text = format!(
-            "wrote {} for {}\n",
-            arguments.output.display(),
-            target.name()
-        );
+        let mut text = format!("{} for {}\n", Wrote(&arguments.output), target.name());
         for note in &converted.notes {
             let _ = writeln!(text, "  {note}");
         }

@@ -8,7 +8,7 @@ use serde_json::json;
 use bolted_joint::draws::{Draw, DrawsFile, Merged, Numbers, Origin, merged};
 
 use super::error::CliError;
-use super::output::{print, write_file};
+use super::output::{Wrote, print, write_file};
 
 /// What `--draws` takes.
 pub(super) fn numbers(text: &str) -> Result<Range<u64>, String> {
@@ -77,13 +77,13 @@ pub(super) fn write_part(
         return print(&serde_json::to_string_pretty(&value)?);
     }
     print(&format!(
-        "{}\ndraws {} of {}, seed {}, {} of them without a result\n\nwrote {}\n",
+        "{}\ndraws {} of {}, seed {}, {} of them without a result\n\n{}\n",
         file.origin.study,
         Numbers(numbers),
         file.origin.draws,
         file.origin.seed,
         file.refused(),
-        output.display()
+        Wrote(output)
     ))
 }
 

@@ -43,6 +43,12 @@ pub(super) enum CliError {
     Unwritable { path: PathBuf, source: io::Error },
     #[error("{}: found it to be the same file as {}, expected another; give the output a name of its own", path.display(), other.display())]
     SameFile { path: PathBuf, other: PathBuf },
+    #[error("{}: found it to be the file that `{key}` of {} names, expected another; give the output a name of its own", path.display(), study.display())]
+    Named {
+        path: PathBuf,
+        study: PathBuf,
+        key: String,
+    },
     #[error("{}: found {found}, expected {expected}; {instead}", path.display())]
     Kind {
         path: PathBuf,

@@ -18,7 +18,9 @@ use bolted_joint::show::FileKind;
 use super::error::CliError;
 use super::invocation::platforms;
 use super::kind::expect;
-use super::output::{check_output, has_extension, is_standard_output, message, print, write_file};
+use super::output::{
+    Wrote, check_fmu, has_extension, is_standard_output, message, print, write_file,
+};
 use super::table::number;
 
 /// `export`
@@ -175,7 +177,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         let found = arguments.output.display();
         return Err(CliError::option("--output", found, expected));
     }
-    check_output(&arguments.output, &[&arguments.joint_file])?;
+    check_fmu(&arguments.output, &[&arguments.joint_file])?;
     let exported = export_to(&arguments.joint_file, &arguments.output, &options)?;
     for reason in &exported.reasons_against {
         message(&format!("warning: not to be relied on: {reason}"));
@@ -242,12 +244,12 @@ fn summary(exported: &Exported, fmu: &Path) -> String {
         .map(|library| library.platform.as_str())
         .collect();
     format!(
-        "wrote {} ({}, {} files, {} kB)\n\
+        "{} ({}, {} files, {} kB)\n\
          model: {}, {}\n\
          steps: {}\n\
          platforms: {}\n\
          token: {}\n",
-        fmu.display(),
+        Wrote(fmu),
         exported.version,
         exported.entries().len(),
         exported.bytes().len().div_ceil(1000),

@@ -27,7 +27,10 @@ use super::draws::{alone, among, numbers, write_part};
 use super::error::CliError;
 use super::identified_from::{at_bolts, averaged, from_modes, place};
 use super::kind::expect_study;
-use super::output::{Ending, HTML, SVG, check_output, check_outputs, print, warn, write_files};
+use super::named_files::check_named;
+use super::output::{
+    Ending, HTML, SVG, Wrote, check_output, check_outputs, print, warn, write_files,
+};
 use super::progress::Progress;
 use super::table::{Table, number};
 
@@ -62,6 +65,14 @@ pub(super) struct IdentifyArguments {
     pub(super) json: bool,
 }
 
+/// The methods that this command is for.
+const METHODS: [Method; 4] = [
+    Method::FrfDecoupling,
+    Method::FrfSpace,
+    Method::LapUpdate,
+    Method::LapResponse,
+];
+
 /// At most so many functions are drawn.
 const PANELS: usize = 3;
 
@@ -84,20 +95,20 @@ pub(super) fn run_with(
     )?;
     expect_study(&arguments.study)?;
     let study = StudyText::read(&arguments.study)?;
-    match study.method()? {
+    let method = study.method()?;
+    study.check_method(method, &METHODS)?;
+    let outputs = [
+        Some(&arguments.output),
+        arguments.figure.as_ref(),
+        arguments.report.as_ref(),
+    ];
+    check_named(&study, &outputs)?;
+    match method {
         Method::FrfDecoupling => {}
         Method::FrfSpace => return space::run(arguments, &study),
         Method::LapUpdate => return lap::update(arguments, &study),
         Method::LapResponse => return lap::response(arguments, &study),
-        other => {
-            let methods = [
-                Method::FrfDecoupling,
-                Method::FrfSpace,
-                Method::LapUpdate,
-                Method::LapResponse,
-            ];
-            study.check_method(other, &methods)?;
-        }
+        other => study.check_method(other, &METHODS)?,
     }
     let written = arguments.report.as_ref();
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
@@ -199,10 +210,10 @@ pub(super) fn run_with(
     let mut text = summary(&found, &study);
     text.push('\n');
     for path in &outputs {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = writeln!(text, "{}", Wrote(path));
     }
     for path in [&arguments.figure, &arguments.report].into_iter().flatten() {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = writeln!(text, "{}", Wrote(path));
     }
     print(&text)?;
     CliError::unless_usable(&outputs[0], &found.reasons_against)

@@ -18,6 +18,7 @@ mod init;
 mod invocation;
 mod kind;
 mod merge;
+mod named_files;
 mod output;
 mod predict;
 mod progress;

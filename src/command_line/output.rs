@@ -1,7 +1,7 @@
 //! Writing of results: to files whole or not at all, to stdout with errors reported, messages to stderr.
 
 use std::cell::Cell;
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -90,6 +90,8 @@ pub(super) enum Ending {
     In(&'static [&'static str], &'static str),
     /// In anything but what another kind of file ends in.
     OfJointFile,
+    /// The same of an FMU.
+    OfFmu,
 }
 
 pub(super) const CSV: Ending = Ending::In(&["csv"], "a name that ends in .csv");
@@ -113,6 +115,9 @@ impl Ending {
             Self::OfJointFile => is_of_another_kind(path).then_some(
                 "a name for the joint file, such as NAME.joint.json; `export` makes an FMU of it",
             ),
+            Self::OfFmu => (!is_in(&["fmu"])
+                && (is_of_another_kind(path) || is_in(&["json", "txt"])))
+            .then_some("a name for an FMU, such as NAME.fmu"),
             Self::Any => None,
         }
     }
@@ -145,6 +150,18 @@ pub(super) fn check_outputs<'a>(
         taken.push(path);
     }
     misnamed.map_or(Ok(taken), Err)
+}
+
+/// Refuses the name of another kind of file for an FMU, and notes where it has none that importers look for.
+pub(super) fn check_fmu(path: &Path, others: &[&PathBuf]) -> Result<(), CliError> {
+    check_output(path, others)?;
+    if let Some(expected) = Ending::OfFmu.expected_for(path) {
+        return Err(CliError::option("--output", path.display(), expected));
+    }
+    if !has_extension(path, "fmu") && !is_standard_output(path) {
+        note(&["importers look for a name that ends in .fmu".to_owned()]);
+    }
+    Ok(())
 }
 
 /// Refuses a `--plot` that is no page and no picture, cannot be written or would replace one of the files that are read.
@@ -251,6 +268,18 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
     Ok(stdout.flush()?)
 }
 
+/// Says that a file was written, or that standard output has it.
+pub(super) struct Wrote<'p>(pub(super) &'p Path);
+
+impl fmt::Display for Wrote<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match is_standard_output(self.0) {
+            true => f.write_str("wrote to standard output"),
+            false => write!(f, "wrote {}", self.0.display()),
+        }
+    }
+}
+
 /// Contents for paths: written all or none.
 pub(super) struct Outputs {
     files: Vec<(PathBuf, String)>,
@@ -282,7 +311,7 @@ impl Outputs {
         let mut text = String::new();
         for (path, _) in &self.files {
             // writing to a String cannot fail
-            let _ = writeln!(text, "wrote {}", path.display());
+            let _ = writeln!(text, "{}", Wrote(path));
         }
         text
     }

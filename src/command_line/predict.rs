@@ -11,6 +11,7 @@ use clap::Args;
 use super::draws::{alone, numbers};
 use super::error::CliError;
 use super::kind::expect_study;
+use super::named_files::check_named;
 use bolted_joint::draws::Merged;
 use bolted_joint::study::{Method, StudyText};
 
@@ -80,6 +81,17 @@ pub(super) fn run_with(
     ];
     let method = study.method()?;
     study.check_method(method, &methods)?;
+    let outputs = [
+        Some(&arguments.output),
+        arguments.report.as_ref(),
+        arguments.matrix_csv.as_ref(),
+        arguments.matrix27.as_ref(),
+        arguments.field_csv.as_ref(),
+        arguments.material_card.as_ref(),
+        arguments.damping_csv.as_ref(),
+        arguments.figure.as_ref(),
+    ];
+    check_named(&study, &outputs)?;
     match method {
         Method::LayeredBeam => layered_beam::run(arguments, &study),
         _ => interface::run(arguments, &study, method, parts),

@@ -27,14 +27,15 @@ pub(super) struct ReproduceArguments {
     /// Tables, such as 4.6, or steps of chapter 5, such as m10x16, of Tol's thesis, or `tol` for all of them [default: tol]; or
     /// one of `pirdayr`, `tian`, `kavi` and `zhao`, for what can be computed of these; or 2.2, for Tol's joint laws
     tables: Vec<Source>,
-    /// Draws of the noise, for mean and spread
-    #[arg(long, value_name = "NUMBER", default_value_t = 100)]
-    draws: u32,
-    /// Seed of the draws
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Draws of the noise, for mean and spread [default: 100]
+    #[arg(long, value_name = "NUMBER")]
+    draws: Option<u32>,
+    /// Seed of the draws [default: 1]
+    #[arg(long)]
+    seed: Option<u64>,
     /// Samples of each harmonic test in response pollution, which the thesis does not give; may be given several times
-    #[arg(long, value_name = "NUMBER", default_values_t = [4096, 16_777_216])]
+    /// [default: 4096 and 16777216]
+    #[arg(long, value_name = "NUMBER")]
     samples: Vec<u32>,
     /// Print the tables as JSON
     #[arg(long, conflicts_with = "markdown")]
@@ -45,6 +46,25 @@ pub(super) struct ReproduceArguments {
     /// Also draw damping over what is varied, for `kavi`, or the loops, for 2.2
     #[arg(long, value_name = "NAME.svg")]
     figure: Option<PathBuf>,
+}
+
+/// Draws of the noise, and samples of a harmonic test, where none are given.
+const DRAWS: u32 = 100;
+const SAMPLES: [u32; 2] = [4096, 16_777_216];
+
+impl ReproduceArguments {
+    /// Refuses what is for noise.
+    fn refuse_draws(&self, expected: &'static str) -> Result<(), CliError> {
+        let options = [
+            ("--draws", self.draws.is_some()),
+            ("--seed", self.seed.is_some()),
+            ("--samples", !self.samples.is_empty()),
+        ];
+        match options.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(CliError::option(option, "it", expected)),
+            None => Ok(()),
+        }
+    }
 }
 
 /// What is computed anew.
@@ -174,6 +194,7 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
                 "it alone: it has a table of another form",
             ));
         }
+        arguments.refuse_draws("none: nothing is drawn but for the tables of Tol's thesis")?;
         return alone.run(arguments);
     }
     let wanted = arguments.tables.iter().filter_map(|source| match source {
@@ -182,7 +203,7 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
     });
     let wanted: Vec<PublishedTable> = wanted.collect();
     let all = arguments.tables.contains(&Source::Tol);
-    if arguments.draws == 0 {
+    if arguments.draws == Some(0) {
         return Err(CliError::option(
             "--draws",
             "0",
@@ -190,9 +211,12 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         ));
     }
     let draws = Draws {
-        count: arguments.draws,
-        seed: arguments.seed,
-        samples: arguments.samples.clone(),
+        count: arguments.draws.unwrap_or(DRAWS),
+        seed: arguments.seed.unwrap_or(1),
+        samples: match arguments.samples.as_slice() {
+            [] => SAMPLES.to_vec(),
+            given => given.to_vec(),
+        },
     };
     let tables = if all || wanted.is_empty() {
         PublishedTable::ALL.to_vec()
@@ -203,6 +227,9 @@ pub(super) fn run(arguments: &ReproduceArguments) -> Result<(), CliError> {
         .iter()
         .map(|table| table.noisy_cases(draws.samples.len()))
         .sum();
+    if cases == 0 {
+        arguments.refuse_draws("none: nothing is drawn for these tables, which have no noise")?;
+    }
     let progress = Progress::new("reproducing", cases * draws.count as usize);
     let found = tables
         .iter()

@@ -27,7 +27,8 @@ use bolted_joint::study::{Method, StudyText};
 use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::kind::{expect, expect_joint_file};
-use super::output::{check_output, is_standard_output, print, write_file};
+use super::named_files::{check_named, check_named_but_assembly};
+use super::output::{Wrote, check_output, is_standard_output, print, write_file};
 use super::progress::Progress;
 
 /// `respond`
@@ -96,9 +97,9 @@ struct NoiseArguments {
         allow_hyphen_values = true
     )]
     level: f64,
-    /// Samples of each harmonic test, for `response`
-    #[arg(long, value_name = "NUMBER", default_value_t = 4096)]
-    samples: u32,
+    /// Samples of each harmonic test, for `response` [default: 4096]
+    #[arg(long, value_name = "NUMBER")]
+    samples: Option<u32>,
     /// Seed of the noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -124,6 +125,9 @@ enum Format {
     Universal,
 }
 
+/// Samples of a harmonic test where no number is given.
+const SAMPLES: u32 = 4096;
+
 /// Distance between lines where none is given, Hz.
 const STEP_HZ: f64 = 0.25;
 
@@ -142,7 +146,13 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         expect_joint_file(joint)?;
     }
     let text = StudyText::read(&arguments.study)?;
+    let outputs = [
+        arguments.output.as_ref(),
+        arguments.report.as_ref(),
+        arguments.deviations.as_ref(),
+    ];
     if kind == FileKind::Assembly {
+        check_named(&text, &outputs)?;
         return assembly::run(arguments, &text);
     }
     let method = text.method()?;
@@ -150,6 +160,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         method,
         &[Method::Respond, Method::FrfDecoupling, Method::FrfSpace],
     )?;
+    check_named_but_assembly(&text, &outputs)?;
     if arguments.plan {
         return plan::run(arguments, &text);
     }
@@ -179,7 +190,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let format = format(output)?;
     check_output(output, &[&arguments.study, joint])?;
     let noise = match &arguments.noise {
-        Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
+        Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise)?.checked()?)),
         None => None,
     };
     let study = Study::of(&text)?;
@@ -234,13 +245,13 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         return judged(joint, &study);
     }
     print(&format!(
-        "{}: {functions} functions of {} lines from {} to {} Hz, {what}\n\n{}\nwrote {}",
+        "{}: {functions} functions of {} lines from {} to {} Hz, {what}\n\n{}\n{}",
         study.name,
         frequency_hz.len(),
         frequency_hz[0],
         frequency_hz[frequency_hz.len() - 1],
         band_tables(&bands, &study),
-        output.display()
+        Wrote(output)
     ))?;
     judged(joint, &study)
 }
@@ -343,14 +354,18 @@ fn format(path: &Path) -> Result<Format, CliError> {
     }
 }
 
-fn pollution(noise: &NoiseArguments) -> Pollution {
+fn pollution(noise: &NoiseArguments) -> Result<Pollution, CliError> {
     let level = noise.level;
-    match noise.procedure {
-        NoiseProcedure::Frf => Pollution::Frf { level },
-        NoiseProcedure::Response => Pollution::Response {
+    match (noise.procedure, noise.samples) {
+        (NoiseProcedure::Frf, None) => Ok(Pollution::Frf { level }),
+        (NoiseProcedure::Frf, Some(samples)) => {
+            let expected = "none: it is for the harmonic tests of `noise response`";
+            Err(CliError::option("--samples", samples, expected))
+        }
+        (NoiseProcedure::Response, samples) => Ok(Pollution::Response {
             level,
-            samples: noise.samples,
-        },
+            samples: samples.unwrap_or(SAMPLES),
+        }),
     }
 }
 

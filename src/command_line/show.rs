@@ -16,7 +16,8 @@ use super::output::{check_plot, has_extension, message, print, warn, write_file}
 /// `show`
 #[derive(Debug, Args)]
 pub(super) struct ShowArguments {
-    /// Files: measured functions (universal file, CSV, NPZ, MAT), modes, matrices, studies, assemblies, joint files, FMUs
+    /// Files: measured functions (universal file, CSV, NPZ, MAT), tables of responses, modes, matrices, studies, assemblies, joint
+    /// files, FMUs, SSPs
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Also draw it: functions with magnitude, phase and coherence, the curves of joints

@@ -103,6 +103,8 @@ fn complex_columns_decibels_and_a_row_of_units_are_the_same_numbers() {
         "f,1:Y/2:Y complex [mm/s^2/N]\n1,3-4j\n2,(0.5+2e0j)\n".to_owned(),
         "f;1:Y/2:Y complex [mm/s^2/N]\n1;3-4i\n2;0,5+2i\n".to_owned(),
         "f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,mm/s^2/N,mm/s^2/N\n1,3,-4\n2,0.5,2\n".to_owned(),
+        "Frequency (Hz),1:Y/2:Y real (mm/s^2/N),1:Y/2:Y imaginary\n1,3,-4\n2,0.5,2\n".to_owned(),
+        "freq_Hz;1:Y/2:Y real [mm/s^2/N];1:Y/2:Y imaginary\n1;3;-4\n2;0,5;2\n".to_owned(),
         "f\t1:Y/2:Y real\t1:Y/2:Y imaginary\n[Hz]\t[mm/s^2/N]\t-\n1\t3\t-4\n2\t0.5\t2\n".to_owned(),
         format!(
             "f,1:Y/2:Y magnitude [dB re 1 mm/s^2/N],1:Y/2:Y phase [deg]\n1,{one},{first}\n2,{two},{second}\n"

@@ -238,7 +238,7 @@ def test_a_cubic_joint_is_followed_by_modes_of_a_file(run, tmp_path, beams):
         (('b = { structure = "b"', 'b = { structure = "a"'), "a joint between a place and itself"),
         (
             ('push = "b/12:+Y"', 'push = "b12:+Y"'),
-            "`inputs.push`: found nothing, expected a structure, a slash and a point",
+            '`inputs.push`: found "b12:+Y", expected a structure, a slash and a point',
         ),
         (('matrices = "a.npz"', 'matrices = "missing.npz"'), "missing.npz"),
         (('matrices = "a.npz"', 'matrices = "wide.npz"'), "array K: found shape [2, 2], expected 3 × 3"),

@@ -34,6 +34,7 @@ mod reproduce;
 mod respond;
 mod rig;
 mod show;
+mod slips;
 mod study;
 mod table_file;
 mod torque;

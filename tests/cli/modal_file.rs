@@ -35,7 +35,10 @@ fn what_is_no_modal_file_is_said_to_be_none() {
     ];
     bench.refused_contents(IDENTIFY, "modes.toml", &cases);
     std::fs::remove_file(bench.path("modes.toml")).unwrap();
-    bench.refused(IDENTIFY, &["modes.toml: cannot be read", "check the path"]);
+    bench.refused(
+        IDENTIFY,
+        &["`a.modal`: found \"modes.toml\", which is not there"],
+    );
 }
 
 #[test]

@@ -204,7 +204,7 @@ fn a_dash_is_standard_output_and_words_go_to_standard_error() {
     let outcome = bench.done(&format!("{IDENTIFY} -"));
     let file: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
     assert_eq!(file["format"], "bolted-joint/1");
-    has(&outcome.stderr, &["wrote -"]);
+    has(&outcome.stderr, &["wrote to standard output"]);
     let outcome = bench.done("convert j.joint.json --to nastran -o -");
     assert!(
         outcome.stdout.starts_with("$ two bodies\n"),

@@ -192,7 +192,11 @@ fn what_makes_no_sense_is_refused_with_file_and_key() {
     }
     let text = study("linear", "[frequency]\nfrom = 1\nto = 2\n");
     let absent = text.replace("ex02", "ex99");
-    refused(&bench, &absent, &["ex99.joint.json", "cannot be read"]);
+    refused(
+        &bench,
+        &absent,
+        &["`lap[1].joint`: found \"ex99.joint.json\", which is not there"],
+    );
     let none = text.replace("[[lap]]\njoint", "# ");
     refused(&bench, &none, &["`lap`", "at least one"]);
 }

@@ -281,6 +281,38 @@ fn files_are_drawn_on_a_page_and_as_svg() {
 }
 
 #[test]
+fn tables_and_systems_are_told_by_what_is_in_them() {
+    let bench = bench();
+    bench.write(
+        "run.csv",
+        "# level 1\nfrequency_hz;force_n;displacement_m;phase_rad\n80,5;1;1e-4;-1,5\n81;1;2e-4;-2\n",
+    );
+    has(
+        &bench.done("show run.csv").stdout,
+        &[
+            "run.csv: table of stepped sines (CSV)",
+            "frequency_hz from 80.5 to 81",
+            "[[sine]] of a study of method \"lap-response\"",
+        ],
+    );
+    bench.write("reference-run-in.csv", "time,b.F\n0,1\n0.5,2\n");
+    let text = bench.done("show reference-run-in.csv").stdout;
+    has(&text, &["table over time (CSV)", "b.F from 1 to 2"]);
+    bench.refused(
+        "identify run.csv -o o.joint.json",
+        &[
+            "found a table of stepped sines (CSV)",
+            "`bolted-joint show run.csv`",
+        ],
+    );
+    bench.done("export beams.toml -o o.ssp");
+    has(
+        &bench.done("show o.ssp").stdout,
+        &["o.ssp: system of FMUs (SSP)", "resources/", "nominal.ssv"],
+    );
+}
+
+#[test]
 fn what_cannot_be_shown_is_said() {
     let bench = bench();
     bench.write("p.png", PNG);
@@ -297,7 +329,7 @@ fn what_cannot_be_shown_is_said() {
     #[rustfmt::skip]
     let cases = [
         ("show missing.uff", ["missing.uff", "cannot be read"]),
-        ("show p.png", ["p.png", "expected"]),
+        ("show p.png", ["p.png: found a file of an unknown kind", "an FMU or an SSP"]),
         ("show o.json", ["o.json: found a JSON file", "expected measured functions"]),
         ("show .", [".: found a folder", "check the path"]),
         ("show v.mat", ["v.mat", "7.3"]),

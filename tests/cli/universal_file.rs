@@ -25,8 +25,8 @@ fn what_is_no_universal_file_is_said_to_be_none() {
         }
         let bench = rig::ready();
         std::fs::remove_file(bench.path(file)).unwrap();
-        let unread = format!("{file}: cannot be read");
-        bench.refused(IDENTIFY, &[&unread, "check the path"]);
+        let unread = format!("found \"{file}\", which is not there");
+        bench.refused(IDENTIFY, &[&unread, "relative to the study's own folder"]);
     }
 }
 

@@ -71,6 +71,8 @@ fn damaged_tables_are_refused_by_their_line() {
         (format!("{HEADER},force_n\n80,1,1e-4,-1,1\n"), ["line 1", "twice"]),
         (format!("{HEADER}\n80,1,1e-4,-1\n"), ["line 1", "at least two"]),
         (format!("{HEADER}\n{}", row.replace("-1.5", "1.5").replace("-2", "2")), ["run.csv", "phase_of"]),
+        (format!("{HEADER}\n80,1,1,5,-1\n"), ["line 2", "with decimal commas, separate the columns by semicolons"]),
+        (format!("{}\n80;1;1,5;-1.5\n", HEADER.replace(',', ";")), ["line 2", "\"-1.5\""]),
     ];
     for (table, parts) in cases {
         let error = refusal(RESPONSE, ("", ""), &table);
@@ -161,4 +163,41 @@ fn a_decay_of_several_modes_is_refused_and_names_them() {
     let line = read.backbones[0].lines[3];
     assert!((line.omega / (TAU * 80.0) - 1.0).abs() < 1e-4);
     assert!((line.damping_ratio.unwrap() * line.omega / 4.0 - 1.0).abs() < 1e-2);
+}
+
+#[test]
+fn noise_in_per_cent_is_refused() {
+    let table = format!("{HEADER}\n80,1,1e-4,-1.5\n81,1,1e-4,-2\n");
+    let noise = "[[sine]]\nfile = \"run.csv\"\n[noise]\nresponse = 5\n";
+    let error = refusal(RESPONSE, ("[[sine]]\nfile = \"run.csv\"\n", noise), &table);
+    has(&error, &["`noise.response`: found 5", "0.05 is 5 %"]);
+}
+
+#[test]
+fn a_file_that_is_named_twice_is_no_second_measurement() {
+    let table = format!("{HEADER}\n80,1,1e-4,-1.5\n81,1,1e-4,-2\n");
+    let again = "file = \"run.csv\"\n[[sine]]\nfile = \"./run.csv\"\n";
+    let error = refusal(RESPONSE, ("file = \"run.csv\"\n", again), &table);
+    has(
+        &error,
+        &[
+            "`sine.file`: found \"./run.csv\" twice",
+            "it would count as two",
+        ],
+    );
+}
+
+/// As a German or French spreadsheet writes them.
+#[test]
+fn semicolons_and_decimal_commas_give_the_same_lines() {
+    let read = |table: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        written("run.csv", table, &folder);
+        let path = written("study.toml", RESPONSE, &folder);
+        let study = LapResponseStudy::read(&path).unwrap();
+        study.sines[0].lines.clone()
+    };
+    let points = format!("{HEADER}\n80.5,1,1.5e-4,-1.5\n81,1,1e-4,-2\n");
+    let commas = points.replace(',', ";").replace('.', ",");
+    assert_eq!(read(&points), read(&commas));
 }

@@ -84,7 +84,7 @@ def test_a_file_for_each_reference(demo, study, run):
     _, done = study("frf = []", expect=1)
     assert "expected the path of a file" in done.stderr
     _, done = study('frf = ["0.csv", "missing.csv"]', expect=1)
-    assert "missing.csv: cannot be read" in done.stderr
+    assert '`assembly.frf`: found "missing.csv", which is not there' in done.stderr
 
 
 def test_coherence_in_a_file_of_its_own(demo, study, run):

@@ -108,6 +108,20 @@ impl AssemblyModel {
     }
 }
 
+/// Points that are listed in a message at most.
+const LISTED: usize = 12;
+
+/// Those of the points whose nodes have the nearest numbers, in the order of the file.
+fn nearest_points(points: &[Dof], wanted: Option<Dof>) -> Vec<Dof> {
+    let mut places: Vec<usize> = (0..points.len()).collect();
+    if let Some(wanted) = wanted {
+        places.sort_by_key(|&place| points[place].node().abs_diff(wanted.node()));
+    }
+    places.truncate(LISTED);
+    places.sort_unstable();
+    places.into_iter().map(|place| points[place]).collect()
+}
+
 struct Reader<'t> {
     text: &'t StudyText,
     structures: Vec<NamedStructure>,
@@ -197,16 +211,30 @@ impl Reader<'_> {
         let channel = |(name, place): (String, String)| {
             let key = format!("{table}.{name}");
             self.text.check_name(&key, &name)?;
-            let (structure, point) = self.text.needed(
-                &key,
-                place.split_once('/'),
-                "a structure, a slash and a point, such as \"b/12:+Y\"",
-            )?;
+            let Some((structure, point)) = place.split_once('/') else {
+                let expected = self.with_slash(&place);
+                return self.text.refuse(&key, format!("{place:?}"), expected);
+            };
             let structure = self.structure(&key, structure)?;
             let place = self.place(&key, structure, point)?;
             Ok(Channel { name, place })
         };
         channels.into_iter().map(channel).collect()
+    }
+
+    /// What is expected in place of a name without a slash.
+    fn with_slash(&self, name: &str) -> String {
+        let meant = self.structures.iter().find_map(|own| {
+            let point = name.strip_prefix(&own.name)?;
+            let point = point.trim_start_matches(|c: char| !c.is_alphanumeric());
+            let dof: Dof = point.parse().ok()?;
+            own.form.row(dof)?;
+            Some(format!("; did you mean \"{}/{point}\"?", own.name))
+        });
+        format!(
+            "a structure, a slash and a point, such as \"b/12:+Y\"{}",
+            meant.unwrap_or_default()
+        )
     }
 
     fn structure(&self, key: &str, name: &str) -> Result<usize, StudyError> {
@@ -219,15 +247,26 @@ impl Reader<'_> {
 
     fn place(&self, key: &str, structure: usize, point: &str) -> Result<Place, StudyError> {
         let own = &self.structures[structure];
-        let there = || {
-            let points: Vec<String> = own.form.points.iter().map(Dof::to_string).collect();
-            format!("a point of structure {}: {}", own.name, points.join(", "))
+        let there = |wanted: Option<Dof>| {
+            let points = nearest_points(&own.form.points, wanted);
+            let more = own.form.points.len() - points.len();
+            let more = match more {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let points: Vec<String> = points.iter().map(Dof::to_string).collect();
+            format!(
+                "a point of structure {}: {}{more}",
+                own.name,
+                points.join(", ")
+            )
         };
-        let dof: Dof = point
-            .parse()
-            .map_err(|_| self.text.refusal(key, format_args!("{point:?}"), there()))?;
+        let dof: Dof = point.parse().map_err(|_| {
+            self.text
+                .refusal(key, format_args!("{point:?}"), there(None))
+        })?;
         if own.form.row(dof).is_none() {
-            return self.text.refuse(key, point, there());
+            return self.text.refuse(key, point, there(Some(dof)));
         }
         Ok(Place { structure, dof })
     }

@@ -25,7 +25,13 @@ pub(crate) struct AllModes {
 }
 
 impl AllModes {
-    /// The structure with its first `kept` modes, and pseudo-modes for the others.
+    /// How many free motions there are: they have no flexibility that a pseudo-mode could stand for.
+    pub(crate) fn rigid(&self) -> usize {
+        let frequencies = self.frequency_rad_per_s.iter();
+        frequencies.filter(|own| **own == 0.0).count()
+    }
+
+    /// The structure with its first `kept` modes, all free motions among them, and pseudo-modes for the others.
     pub(crate) fn cut_to(self, kept: usize) -> ModalForm {
         let all = self.frequency_rad_per_s.len();
         if kept >= all {
@@ -99,6 +105,10 @@ fn pseudo_modes(shapes: &DMatrix<f64>, squares: &DVector<f64>) -> (DVector<f64>,
     let independent: Vec<usize> = (0..mass.eigenvalues.len())
         .filter(|&i| mass.eigenvalues[i] > DEPENDENT * largest)
         .collect();
+    if independent.is_empty() {
+        // the points do not move, as those of a clamped end
+        return (DVector::zeros(0), DMatrix::zeros(cut, 0));
+    }
     let unit = DMatrix::from_fn(deflections.ncols(), independent.len(), |p, n| {
         mass.eigenvectors[(p, independent[n])] / mass.eigenvalues[independent[n]].sqrt()
     });

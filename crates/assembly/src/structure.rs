@@ -4,7 +4,7 @@ use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{
     Beam, BeamPoint, Damping, ModalModel, Motion, NamedMatrices, StructureError, Theory,
 };
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{BeamNumber, StudyError, StudyText};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::num::NonZeroU16;
 
@@ -60,7 +60,12 @@ pub(crate) fn structure(
             points_beside("a file of matrices")?;
             let matrices = NamedMatrices::read(&study.resolved(&path)).map_err(failed)?;
             (
-                of_matrices(study, &key, &matrices, failed)?.cut_to(kept),
+                cut(
+                    study,
+                    &key,
+                    of_matrices(study, &key, &matrices, failed)?,
+                    kept,
+                )?,
                 Vec::new(),
             )
         }
@@ -79,7 +84,7 @@ pub(crate) fn structure(
                 "the positions of its points along the beam in m, such as { \"1:+Y\" = 0.0, \"1:+RZ\" = 0.0 }",
             )?;
             (
-                of_beam(&beam, &points).map_err(failed)?.cut_to(kept),
+                cut(study, &key, of_beam(&beam, &points).map_err(failed)?, kept)?,
                 Vec::new(),
             )
         }
@@ -96,8 +101,29 @@ pub(crate) fn structure(
     Ok(form)
 }
 
+/// The structure with so many modes, which have to be enough for its free motions.
+fn cut(study: &StudyText, key: &str, all: AllModes, kept: usize) -> Result<ModalForm, StudyError> {
+    let rigid = all.rigid();
+    study.ensure(
+        kept >= rigid,
+        format_args!("{key}.modes"),
+        kept,
+        format_args!("{rigid} or more: the structure moves freely in so many ways"),
+    )?;
+    Ok(all.cut_to(kept))
+}
+
 fn computed(study: &StudyText, key: &str, table: BeamTable) -> Result<Beam, StudyError> {
     let key = format!("{key}.beam");
+    for (number, found) in [
+        (BeamNumber::Length, table.length),
+        (BeamNumber::Width, table.width),
+        (BeamNumber::Height, table.height),
+        (BeamNumber::YoungsModulus, table.youngs_modulus),
+        (BeamNumber::Density, table.density),
+    ] {
+        study.plausible_in_beam(&key, number, found)?;
+    }
     let theory = match (table.theory, table.poissons_ratio) {
         (TheoryName::Timoshenko, None) => Theory::default(),
         (TheoryName::Timoshenko, Some(poissons_ratio)) => Theory::Timoshenko { poissons_ratio },

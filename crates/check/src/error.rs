@@ -33,6 +33,14 @@ pub enum CheckError {
         /// Path within it.
         entry: &'static str,
     },
+    /// A system of FMUs does not say what is in it.
+    #[error("{}: `{entry}` is missing or cannot be read, expected a system of FMUs (SSP 1.0); export it again", path.display())]
+    Structure {
+        /// The system.
+        path: PathBuf,
+        /// Path within it.
+        entry: &'static str,
+    },
     /// The FMU is of another tool.
     #[error(
         "{}: found an FMU of another tool (it says \"{tool}\"), expected one that `bolted-joint export` wrote; `bolted-joint show` \

@@ -14,6 +14,7 @@ mod inspect;
 mod parts;
 mod reference;
 mod run;
+mod system;
 mod variables;
 
 pub use assembly::{AssemblyInspection, inspect_assembly};
@@ -21,3 +22,4 @@ pub use error::CheckError;
 pub use foreign::{ForeignFmu, foreign};
 pub use inspect::{Inspection, inspect};
 pub use run::{BalanceReport, RunReport, RunVerdict, Runner, execute_script, run, run_assembly};
+pub use system::{SystemInspection, inspect_system};

@@ -206,7 +206,7 @@ pub enum ExportError {
     },
     /// A name that no library can have.
     #[error(
-        "model identifier: found {found:?}, expected letters, digits and underscores with no digit in front, 128 at most, such as Bolt_M10; \
+        "model identifier: found {found:?}, expected letters, digits and underscores with no digit in front, 128 at most, and no word of C or C++, such as Bolt_M10; \
          leave --model-identifier out for one that is made of the name"
     )]
     NotAnIdentifier {

@@ -7,6 +7,14 @@ const LONGEST: usize = 48;
 /// Longest that is taken from the user.
 const LONGEST_GIVEN: usize = 128;
 
+/// Words of C (ISO/IEC 9899:2024, 6.4.1), and of C++, in which tools wrap FMUs: none of them is a name.
+const WORDS: &str = "alignas alignof and asm auto bool break case catch char class const constexpr continue default delete do double \
+                     else enum explicit extern false float for friend goto if inline int long mutable namespace new not nullptr \
+                     operator or private protected public register restrict return short signed sizeof static static_assert struct \
+                     switch template this thread_local throw true try typedef typeid typename typeof typeof_unqual union unsigned \
+                     using virtual void volatile while xor _Alignas _Alignof _Atomic _BitInt _Bool _Complex _Decimal128 _Decimal32 \
+                     _Decimal64 _Generic _Imaginary _Noreturn _Static_assert _Thread_local";
+
 /// The identifier that the user gives, or one that is made of the model's name and of what it is.
 pub(super) fn model_identifier(
     given: Option<&str>,
@@ -25,7 +33,8 @@ pub(super) fn model_identifier(
 /// Whether C takes it as a name (FMI 3.0, 2.4.1.1; FMI 2.0, 3.3.1).
 fn is_identifier(text: &str) -> bool {
     let letters = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    letters && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+    let is_word = WORDS.split_whitespace().any(|word| word == text);
+    letters && !is_word && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
 }
 
 /// The words of the name, with underscores between them, and the kind behind them.
@@ -69,7 +78,16 @@ mod tests {
             model_identifier(Some("Bolt_1"), "x", "lap").unwrap(),
             "Bolt_1"
         );
-        for given in ["", "1bolt", "a b", "a-b", "ä", &"a".repeat(200)] {
+        for given in [
+            "",
+            "1bolt",
+            "a b",
+            "a-b",
+            "ä",
+            "while",
+            "class",
+            &"a".repeat(200),
+        ] {
             assert!(
                 model_identifier(Some(given), "x", "lap").is_err(),
                 "{given}"

@@ -2,6 +2,8 @@
 //! are written whole or not at all, and who wrote them and when.
 #![forbid(unsafe_code)]
 
+mod decimal;
+mod encoding;
 pub mod inputs;
 mod number;
 pub mod text_file;
@@ -9,6 +11,8 @@ pub mod text_table;
 mod timestamp;
 pub mod whole_file;
 
+pub use decimal::Decimal;
+pub use encoding::Encoding;
 pub use number::number;
 pub use text_file::TextFileError;
 pub use timestamp::{Civil, DateError, Timestamp};

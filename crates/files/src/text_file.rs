@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::encoding::Encoding;
 use crate::inputs;
 
 /// Why a text file cannot be read.
@@ -44,6 +45,22 @@ pub enum TextFileError {
         path: PathBuf,
         /// Offset of the first byte that is no text.
         offset: usize,
+        /// What should be in it.
+        expected: &'static str,
+    },
+    /// Text, but not in UTF-8.
+    #[error(
+        "{}, line {line}: found text in {encoding}, expected {expected} in UTF-8; save it as UTF-8, an encoding that editors offer \
+         beside the file's name",
+        path.display()
+    )]
+    Encoding {
+        /// The file.
+        path: PathBuf,
+        /// The first line that tells, from 1.
+        line: usize,
+        /// How the text seems to be written.
+        encoding: Encoding,
         /// What should be in it.
         expected: &'static str,
     },
@@ -118,6 +135,14 @@ pub fn read(path: &Path, expected: &'static str) -> Result<String, TextFileError
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(TextFileError::Empty {
             path: path.to_owned(),
+            expected,
+        });
+    }
+    if let Some((encoding, line)) = Encoding::other_than_utf8(&bytes) {
+        return Err(TextFileError::Encoding {
+            path: path.to_owned(),
+            line,
+            encoding,
             expected,
         });
     }

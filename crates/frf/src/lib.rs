@@ -28,7 +28,7 @@ mod uff;
 mod unit_label;
 
 pub use coherence::{Coherence, relative_variance};
-pub use csv::{Decimal, read_csv, read_csv_from};
+pub use csv::{read_csv, read_csv_from};
 pub use dof::{Direction, Dof, DofError, Sign};
 pub use error::FrfError;
 pub use function::Frf;

@@ -8,7 +8,7 @@ use serde_json::{Value, error::Category};
 
 use super::nearest::nearest;
 use super::{Format, JointFile, JointFileError, TextPlace};
-use bolted_joint_files::text_file;
+use bolted_joint_files::{Encoding, text_file};
 
 impl JointFile {
     /// Reads and checks the joint file at `path`.
@@ -39,10 +39,10 @@ impl JointFile {
             let is_zip = refused.as_bytes().starts_with(b"PK\x03\x04");
             JointFileError::Binary {
                 origin: origin.clone(),
-                found: if is_zip {
-                    "a zip archive (an FMU?)"
-                } else {
-                    "bytes that are no text"
+                found: match Encoding::other_than_utf8(refused.as_bytes()) {
+                    _ if is_zip => "a zip archive (an FMU?)",
+                    Some(_) => "text in another encoding than UTF-8: save it as UTF-8",
+                    None => "bytes that are no text",
                 },
             }
         })?;

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use bolted_joint_files::Decimal;
 use bolted_joint_files::text_file::{self, TextFileError};
 use bolted_joint_files::text_table::{self, Cells};
-use bolted_joint_frf::{Decimal, shown};
+use bolted_joint_frf::shown;
 
 /// A column that a table must have.
 #[derive(Debug, Clone, Copy)]
@@ -98,10 +99,7 @@ pub(super) fn read<const N: usize>(
             ));
         }
     }
-    let mut decimal = match separator {
-        ',' => Decimal::Point,
-        _ => Decimal::Either,
-    };
+    let mut decimal = Decimal::beside(separator);
     let mut rows = Vec::new();
     for (line, text) in lines {
         let cells = tokeniser.of(text);

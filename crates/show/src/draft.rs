@@ -38,7 +38,7 @@ pub enum DraftError {
     /// It has too few files.
     #[error(
         "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT) or modes of two parts, and functions of their \
-         assembly{refused}",
+         assembly; where a part is a beam that is computed, begin with examples/tutorial/new.toml instead{refused}",
         path.display()
     )]
     TooFew {

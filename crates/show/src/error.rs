@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use bolted_joint_assembly::AssemblyError;
 use bolted_joint_check::CheckError;
 use bolted_joint_draws::DrawsError;
+use bolted_joint_files::TextFileError;
 use bolted_joint_frf::FrfError;
 use bolted_joint_frf::structure::StructureError;
 use bolted_joint_joint::JointFileError;
@@ -16,8 +17,8 @@ use thiserror::Error;
 pub enum ShowError {
     /// Another kind of file.
     #[error(
-        "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT), modes, matrices, a study, an assembly, a \
-         joint file or an FMU; check the path",
+        "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT), a table of responses (CSV), modes, \
+         matrices, a study, an assembly, a joint file, draws, an FMU or an SSP; check the path",
         path.display()
     )]
     Kind {
@@ -41,6 +42,9 @@ pub enum ShowError {
     /// A joint file that cannot be read.
     #[error(transparent)]
     JointFile(#[from] JointFileError),
+    /// A table that cannot be read.
+    #[error(transparent)]
+    Table(#[from] TextFileError),
     /// Draws that cannot be read.
     #[error(transparent)]
     Draws(#[from] DrawsError),

@@ -4,10 +4,13 @@ use std::fmt;
 use std::io::Read as _;
 use std::path::Path;
 
-use bolted_joint_files::{inputs, text_file};
+use bolted_joint_files::text_table::{self, Cells};
+use bolted_joint_files::{Decimal, Encoding, inputs, text_file};
 use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
+
+use crate::tables::TableKind;
 
 /// How much of a file is looked at before more of it is read.
 const LOOKED_AT: u64 = 4096;
@@ -17,6 +20,8 @@ const LOOKED_AT: u64 = 4096;
 pub enum FileKind {
     /// Measured functions, or what looks like a file of them.
     Functions(Container),
+    /// Numbers that are no functions, with what they are for.
+    Table(TableKind),
     /// Matrices of mass and stiffness of a structure.
     Matrices,
     /// Modes of a structure.
@@ -76,6 +81,7 @@ impl FileKind {
         {
             return match container {
                 Container::Universal if begins_with_shapes(path) => Self::Modes,
+                Container::Table => of_table(&beginning),
                 container => Self::Functions(container),
             };
         }
@@ -85,17 +91,57 @@ impl FileKind {
             (Some(TextKind::Assembly), _) => Self::Assembly,
             (Some(TextKind::Modes), _) => Self::Modes,
             // a comment and a misspelt key look like a table; the reader of TOML knows what the key should be
+            (None, Some(Container::Table)) if !named("toml") => match has_numbers(&beginning) {
+                true => of_table(&beginning),
+                false => Self::Unknown,
+            },
             (None, Some(container)) if !named("toml") => Self::Functions(container),
             (None, _) => Self::Unknown,
         }
     }
 }
 
+/// In whatever encoding: its reader says that it should be UTF-8.
 fn text(path: &Path) -> Option<String> {
-    text_file::bytes(path)
-        .ok()
-        .flatten()
-        .and_then(|bytes| String::from_utf8(bytes).ok())
+    let bytes = text_file::bytes(path).ok().flatten()?;
+    Some(
+        Encoding::decoded(&bytes)
+            .trim_start_matches('\u{feff}')
+            .to_owned(),
+    )
+}
+
+/// Functions, unless its columns say that it is something else.
+fn of_table(beginning: &[u8]) -> FileKind {
+    let kind = TableKind::told_by(&Encoding::decoded(beginning));
+    kind.map_or(FileKind::Functions(Container::Table), FileKind::Table)
+}
+
+/// Whether one of the rows below the names begins with a number, as those of a table do, and those of a text or a script do not.
+fn has_numbers(beginning: &[u8]) -> bool {
+    let text = Encoding::decoded(beginning);
+    let mut rows = text_table::rows(&text);
+    let Some((_, names)) = rows.next() else {
+        return false;
+    };
+    let separator = text_table::separator(names);
+    let mut cells = Cells::separated_by(separator);
+    // units may stand in a row of their own
+    rows.take(3).any(|(_, row)| {
+        let first = cells
+            .of(row)
+            .first()
+            .copied()
+            .unwrap_or_default()
+            .to_owned();
+        Decimal::beside(separator).parse(&first).is_some()
+    })
+}
+
+/// Whether a file has nothing in it.
+pub(crate) fn is_blank(path: &Path) -> bool {
+    let bytes = text_file::beginning(path).unwrap_or_default();
+    bytes.trim().is_empty()
 }
 
 /// A joint file is told by its format or, if it is damaged, by what stands in it.
@@ -153,6 +199,7 @@ impl fmt::Display for FileKind {
             Self::Functions(Container::Archive) => f.write_str("a NumPy archive (npz)"),
             Self::Functions(Container::SingleArray) => f.write_str("a NumPy array (npy)"),
             Self::Functions(Container::Matlab) => f.write_str("a MATLAB file (mat)"),
+            Self::Table(kind) => kind.fmt(f),
             Self::Matrices => f.write_str("matrices of a structure"),
             Self::Modes => f.write_str("modes of a structure"),
             Self::Study(Some(method)) => write!(f, "a study of method \"{method}\""),
@@ -191,14 +238,13 @@ pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
             "bolted-joint merge STUDY.toml {path} ... -o NAME.joint.json"
         )),
         FileKind::Fmu => Some(format!("bolted-joint check {path}")),
-        FileKind::Functions(_) | FileKind::Matrices | FileKind::Modes | FileKind::Study(None) => {
-            Some(format!("bolted-joint show {path}"))
-        }
-        FileKind::Ssp
-        | FileKind::OtherJson
-        | FileKind::OtherZip
-        | FileKind::Folder
-        | FileKind::Unknown => None,
+        FileKind::Functions(_)
+        | FileKind::Table(_)
+        | FileKind::Matrices
+        | FileKind::Modes
+        | FileKind::Ssp
+        | FileKind::Study(None) => Some(format!("bolted-joint show {path}")),
+        FileKind::OtherJson | FileKind::OtherZip | FileKind::Folder | FileKind::Unknown => None,
     }
 }
 
@@ -210,11 +256,13 @@ mod tests {
     fn files_are_told_by_what_is_in_them() {
         let folder = tempfile::tempdir().unwrap();
         #[rustfmt::skip]
-        let cases: [(&str, &[u8], FileKind); 18] = [
+        let cases: [(&str, &[u8], FileKind); 20] = [
             ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
+            ("s.csv", b"time_s,displacement_m\n", FileKind::Table(TableKind::Decay)),
             ("a.csv", b"1,2\n", FileKind::Functions(Container::Table)),
-            ("a", b"# quantity = mobility\nfrequency,1\n", FileKind::Functions(Container::Table)),
+            ("a", b"# quantity = mobility\nfrequency,1\n2,3\n", FileKind::Functions(Container::Table)),
+            ("a.md", b"# A title\n\nA sentence, and another.\nMore.\n", FileKind::Unknown),
             ("a.npy", b"\x93NUMPY\x01", FileKind::Functions(Container::SingleArray)),
             ("a.dat", b"MATLAB 5.0 MAT-file", FileKind::Functions(Container::Matlab)),
             ("j.joint.json", b"{\"format\": \"bolted-joint/1\"}", FileKind::JointFile),

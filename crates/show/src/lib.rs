@@ -18,6 +18,8 @@ mod modes;
 mod quality;
 mod shown;
 mod study;
+mod system;
+mod tables;
 
 use std::path::Path;
 
@@ -28,6 +30,7 @@ pub use error::ShowError;
 pub use kind::{FileKind, command_for};
 pub use quality::{DrivePoint, Reciprocity, drive_points, half_power_lines, reciprocities};
 pub use shown::{Fact, Shown};
+pub use tables::TableKind;
 
 /// What is in a file.
 ///
@@ -36,7 +39,9 @@ pub use shown::{Fact, Shown};
 pub fn show(path: &Path) -> Result<Shown, ShowError> {
     let kind = FileKind::of(path);
     let mut shown = match kind {
-        FileKind::Functions(_) | FileKind::Unknown => functions::or_matrices(path)?,
+        FileKind::Functions(_) => functions::or_matrices(path)?,
+        FileKind::Table(kind) => tables::shown(path, kind)?,
+        FileKind::Unknown => unknown(path)?,
         FileKind::Matrices => matrices::shown(path)?,
         FileKind::Modes => modes::shown(path)?,
         FileKind::Study(_) => study::shown(&StudyText::read(path)?)?,
@@ -44,7 +49,8 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
         FileKind::JointFile => joint::shown(path)?,
         FileKind::Draws => draws::shown(path)?,
         FileKind::Fmu => fmu::shown(path)?,
-        FileKind::Folder | FileKind::Ssp | FileKind::OtherJson | FileKind::OtherZip => {
+        FileKind::Ssp => system::shown(path)?,
+        FileKind::Folder | FileKind::OtherJson | FileKind::OtherZip => {
             return Err(ShowError::Kind {
                 path: path.to_owned(),
                 found: kind.to_string(),
@@ -53,4 +59,19 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
     };
     path.clone_into(&mut shown.path);
     Ok(shown)
+}
+
+/// What cannot be read is told by the reader whose it seems to be; what is read, and is of no kind, with the kinds that there are.
+fn unknown(path: &Path) -> Result<Shown, ShowError> {
+    if !path.exists() || kind::is_blank(path) {
+        return functions::or_matrices(path);
+    }
+    let extension = path.extension().unwrap_or_default();
+    if extension.eq_ignore_ascii_case("toml") {
+        StudyText::read(path)?.method()?;
+    }
+    Err(ShowError::Kind {
+        path: path.to_owned(),
+        found: FileKind::Unknown.to_string(),
+    })
 }

@@ -25,6 +25,9 @@ pub(crate) const FARTHEST_M: f64 = 3.0;
 /// Size of a function in parts of the largest one that is rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// A standard deviation of the set-up that is larger is in another unit.
+const MOST_DEVIATION: f64 = 1.0;
+
 /// Frequencies that are the same, in parts.
 const SAME: f64 = 1e-6;
 
@@ -75,20 +78,13 @@ impl SpatialStudy {
     /// [`StudyError`] that names the file and the key or line.
     pub fn of(study: &StudyText) -> Result<Self, StudyError> {
         let file: StudyFile = study.tables()?;
-        let chain = ChainStudy::of(study, None)?;
+        let chain = ChainStudy::measured(study)?;
         let reader = Reader {
             study,
             motions: chain.motions,
         };
-        let Some(assembly) = &chain.assembly else {
-            return study.refuse(
-                "assembly.frf",
-                "nothing",
-                "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`",
-            );
-        };
         let (sides, link) = chain.two_sides()?;
-        let (observed, zero_functions) = reader.observed(&sides, Some(assembly))?;
+        let (observed, zero_functions) = reader.observed(&sides, chain.assembly.as_ref())?;
         let frequency_hz = chain.problem.frequency_hz.clone();
         Ok(Self {
             motions: chain.motions,
@@ -197,7 +193,9 @@ impl Reader<'_> {
             )?;
             let expected =
                 "noise in parts of each value, such as 0.01; without the key there is none";
-            self.study.positive(key, part, expected)
+            self.study.positive(key, part, expected)?;
+            self.study.part_of_whole(key, part)?;
+            Ok::<f64, StudyError>(part)
         };
         Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])
     }
@@ -227,14 +225,14 @@ impl Reader<'_> {
 
     /// The noise of the assembly's functions.
     pub(crate) fn level(&self, table: &NoiseTable) -> Result<Level, StudyError> {
-        Ok(match table.relative {
-            None => Level::OfResiduals,
-            Some(part) => Level::Relative(self.study.positive(
-                "noise.relative",
-                part,
-                "noise in parts of each function's r.m.s., such as 0.01",
-            )?),
-        })
+        let Some(part) = table.relative else {
+            return Ok(Level::OfResiduals);
+        };
+        let key = "noise.relative";
+        let expected = "noise in parts of each function's r.m.s., such as 0.01";
+        self.study.positive(key, part, expected)?;
+        self.study.part_of_whole(key, part)?;
+        Ok(Level::Relative(part))
     }
 
     pub(crate) fn sensor(
@@ -449,13 +447,15 @@ impl Reader<'_> {
             BudgetTable::Deviations(own) => *own,
         };
         let value = |key: &str, given: Option<f64>, typical: f64| {
+            let value = given.unwrap_or(typical);
             let expected =
                 "a standard deviation above 0, or budget = \"none\" for a set-up that is exact";
-            self.study.positive(
-                format_args!("budget.{key}"),
-                given.unwrap_or(typical),
-                expected,
-            )
+            let key = format_args!("budget.{key}");
+            self.study.positive(key, value, expected)?;
+            let expected = "at most 1: a gain of 0.05 is 5 %, positions are in m, rotations in rad";
+            self.study
+                .ensure(value <= MOST_DEVIATION, key, value, expected)?;
+            Ok::<f64, StudyError>(value)
         };
         let tolerance = Tolerance {
             position_m: value("position", position, Tolerance::TYPICAL.position_m)?,

@@ -1,7 +1,10 @@
 //! Checks that every method has use for: each names the file, the key, what was found and what was expected.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
+use std::fs;
 use std::ops::RangeInclusive;
+use std::path::Path;
 
 use bolted_joint_joint::is_one_line;
 
@@ -83,6 +86,15 @@ impl StudyText {
         Ok(value)
     }
 
+    /// A standard deviation that is a part of the value: one beyond the whole was meant in per cent.
+    ///
+    /// # Errors
+    /// [`StudyError::Value`] if it is above 1.
+    pub fn part_of_whole(&self, key: impl Display, value: f64) -> Result<(), StudyError> {
+        let expected = "a part of the whole, at most 1: 0.05 is 5 %";
+        self.ensure(value <= 1.0, key, value, expected)
+    }
+
     /// A number within a range.
     ///
     /// # Errors
@@ -143,6 +155,29 @@ impl StudyText {
             format_args!("{name:?}"),
             "one line of text",
         )
+    }
+
+    /// Files that are measurements of their own: one that is named twice would count twice, and lower the variances of what it tells.
+    ///
+    /// # Errors
+    /// [`StudyError::Value`] for the first that was named before.
+    pub fn every_file_once<'f>(
+        &self,
+        key: impl Display,
+        files: impl IntoIterator<Item = &'f Path>,
+    ) -> Result<(), StudyError> {
+        let mut seen = BTreeSet::new();
+        for file in files {
+            let path = self.resolved(file);
+            let is_new = seen.insert(fs::canonicalize(&path).unwrap_or(path));
+            self.ensure(
+                is_new,
+                &key,
+                format_args!("\"{}\" twice", file.display()),
+                "every measurement once: it would count as two",
+            )?;
+        }
+        Ok(())
     }
 
     /// The frequencies to use, Hz; where an end is left out, everything there is. For methods that use all lines of one band.

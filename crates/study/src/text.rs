@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 use bolted_joint_files::text_file;
 use bolted_joint_joint::nearest;
 
+use super::named::ESCAPES;
 use super::{Method, StudyError};
 
 /// The text of a study, and where it lies.
@@ -66,10 +67,34 @@ impl StudyText {
     /// [`StudyError::Syntax`] with line and column for what is not TOML, keys that do not belong, keys that are missing and
     /// values of another type.
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
-        toml::from_str(&self.text).map_err(|error| StudyError::Syntax {
-            path: self.path.clone(),
-            message: self.with_misspelt(with_suggestion(error.to_string().trim_end())),
+        toml::from_str(&self.text).map_err(|error| {
+            let message = with_suggestion(error.to_string().trim_end());
+            let message = match self.is_escape(&error) {
+                true => format!("{message}; {ESCAPES}"),
+                false => self.with_misspelt(message),
+            };
+            StudyError::Syntax {
+                path: self.path.clone(),
+                message,
+            }
         })
+    }
+
+    /// Whether an error of the parser's is about a backslash in a text, as paths of Windows have it.
+    fn is_escape(&self, error: &toml::de::Error) -> bool {
+        let Some(place) = error.span().map(|span| span.start) else {
+            return false;
+        };
+        let before = self.text.get(..place).unwrap_or_default();
+        let begin = before.rfind('\n').map_or(0, |end| end + 1);
+        let line = self.text[begin..].lines().next().unwrap_or_default();
+        let is_toml = toml::from_str::<toml::Table>(&self.text).is_ok();
+        !is_toml
+            && line
+                .split('"')
+                .skip(1)
+                .step_by(2)
+                .any(|text| text.contains('\\'))
     }
 
     /// A message of the parser's; where a key is missing, with the one that may have been meant for it.
@@ -95,9 +120,26 @@ impl StudyText {
     pub fn method(&self) -> Result<Method, StudyError> {
         #[derive(Deserialize)]
         struct MethodAlone {
-            method: Method,
+            method: Option<Method>,
         }
-        self.tables().map(|MethodAlone { method }| method)
+        let MethodAlone { method } = self.tables()?;
+        method.ok_or_else(|| {
+            let keys = toml::from_str::<toml::Table>(&self.text).unwrap_or_default();
+            let mut keys = keys.keys();
+            match keys.find(|key| nearest(key, &["method"]).is_some()) {
+                Some(key) => self.refusal(
+                    "method",
+                    format_args!("`{key}`"),
+                    "it; did you mean `method`?",
+                ),
+                None => {
+                    let names = Method::ALL.map(|method| format!("\"{method}\""));
+                    let expected =
+                        format!("one of {}, such as method = {}", names.join(", "), names[0]);
+                    self.refusal("method", "nothing", expected)
+                }
+            }
+        })
     }
 
     /// The error for a value that cannot be used.
@@ -160,9 +202,36 @@ mod tests {
         let misspelt = StudyText::new("methd = \"respond\"", Path::new("s.toml"));
         let refused = misspelt.method().unwrap_err().to_string();
         assert!(
-            refused.ends_with("missing field `method`; found `methd`, did you mean `method`?"),
+            refused.ends_with("`method`: found `methd`, expected it; did you mean `method`?"),
             "{refused}"
         );
         assert_eq!(misspelt.kind(), Some(crate::TextKind::Study(None)));
+    }
+
+    #[test]
+    fn a_study_without_a_method_gets_all_of_them() {
+        let refused = StudyText::new("name = \"x\"", Path::new("s.toml")).method();
+        let refused = refused.unwrap_err().to_string();
+        let expected =
+            "s.toml: `method`: found nothing, expected one of \"frf-decoupling\", \"frf-space\"";
+        assert!(refused.starts_with(expected), "{refused}");
+    }
+
+    #[test]
+    fn paths_of_windows_get_other_quotation_marks() {
+        for path in [
+            "C:\\temp\\x.csv",
+            "D:\\users\\x.csv",
+            "C:\\Daten\\x.csv",
+            "C:\\",
+        ] {
+            let text = format!("method = \"respond\"\nfrf = \"{path}\"\n");
+            let refused = StudyText::new(text, Path::new("s.toml")).method();
+            let refused = refused.unwrap_err().to_string();
+            assert!(refused.contains("line 2"), "{refused}");
+            assert!(refused.ends_with(ESCAPES), "{refused}");
+        }
+        let other = StudyText::new("method = \"respond\"\nx = 1 2\n", Path::new("s.toml"));
+        assert!(!other.method().unwrap_err().to_string().contains(ESCAPES));
     }
 }

@@ -8,7 +8,8 @@ use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
 use super::super::invocation::platforms;
-use super::super::output::{check_output, message, note, print, warn};
+use super::super::named_files::check_named;
+use super::super::output::{Wrote, check_fmu, message, note, print, warn};
 use super::super::table::number;
 use super::{ExportArguments, system};
 
@@ -30,7 +31,8 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     }
     arguments.refuse_options_of_systems("none: it is for an SSP; write one with -o NAME.ssp")?;
     let text = StudyText::read(&arguments.joint_file)?;
-    check_output(&arguments.output, &[&arguments.joint_file])?;
+    check_named(&text, &[Some(&arguments.output)])?;
+    check_fmu(&arguments.output, &[&arguments.joint_file])?;
     let model = AssemblyModel::of(&text)?;
     let options = AssemblyOptions {
         version: arguments.fmi.map_or_else(Default::default, Into::into),
@@ -86,12 +88,12 @@ fn summary(
     let libraries = packed.libraries.iter();
     let platforms: Vec<&str> = libraries.map(|library| library.platform.as_str()).collect();
     format!(
-        "wrote {} ({}, {} files, {} kB)\n\
+        "{} ({}, {} files, {} kB)\n\
          model: {}, {} structures with {} coordinates and {} joints between them (loads in, motion out)\n\
          steps: exact for the linear part at any length; {} s are suggested\n\
          platforms: {}\n\
          token: {}\n",
-        arguments.output.display(),
+        Wrote(&arguments.output),
         exported.version,
         packed.entries.len(),
         packed.bytes().len().div_ceil(1000),

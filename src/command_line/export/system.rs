@@ -12,7 +12,8 @@ use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
 use super::super::invocation::platforms;
-use super::super::output::{check_output, note, print, warn};
+use super::super::named_files::check_named;
+use super::super::output::{Wrote, check_output, note, print, warn};
 use super::assembly::warn_of_joints;
 use super::{ExportArguments, SspReader};
 
@@ -41,6 +42,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     }
     let text = StudyText::read(&arguments.joint_file)?;
     check_output(&arguments.output, &[&arguments.joint_file])?;
+    check_named(&text, &[Some(&arguments.output)])?;
     let model = AssemblyModel::of(&text)?;
     let options = SystemOptions {
         parts: AssemblyOptions {
@@ -105,10 +107,10 @@ fn summary(exported: &ExportedSystem, arguments: &ExportArguments) -> String {
         count => format!("nominal, and {count} draws"),
     };
     format!(
-        "wrote {} (SSP 1.0 of {} FMUs, {} files, {} kB)\n\
+        "{} (SSP 1.0 of {} FMUs, {} files, {} kB)\n\
          system: {}, {} components with {} connections: {}\n\
          parameter sets: {draws}\n",
-        arguments.output.display(),
+        Wrote(&arguments.output),
         exported.version,
         packed.entries.len(),
         packed.bytes().len().div_ceil(1000),

@@ -9,7 +9,7 @@ use bolted_joint::respond::AssemblyAnswer;
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
-use super::super::output::{check_output, has_extension, note, print, warn, write_file};
+use super::super::output::{Wrote, check_output, has_extension, note, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
 use super::picture::{Picture, also};
@@ -55,11 +55,10 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
     }
     warn(&model.warnings);
     note(&model.notes);
-    let output = output.display();
     if arguments.json {
         let modes = answer.modes.iter().map(|mode| json!({ "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio }));
         let value = json!({
-            "output": output.to_string(),
+            "output": output.display().to_string(),
             "report": drawing.as_ref().map(|(path, _)| path.display().to_string()),
             "rows": answer.rows.len(),
             "structures": model.structures.iter().map(|own| json!({
@@ -72,8 +71,9 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
         print(&serde_json::to_string_pretty(&value)?)?;
     } else {
         print(&format!(
-            "{}wrote {output}{}",
+            "{}{}{}",
             told(&model, &answer),
+            Wrote(output),
             also(&[arguments.report.as_ref()])
         ))?;
     }

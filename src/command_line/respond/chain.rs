@@ -12,7 +12,7 @@ use bolted_joint::study::StudyText;
 use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
 use super::super::error::CliError;
-use super::super::output::{CSV, Ending, check_outputs, print, warn, write_file};
+use super::super::output::{CSV, Ending, Wrote, check_outputs, print, warn, write_file};
 use super::picture::{Picture, also};
 use super::{Format, RespondArguments, RespondNoise, format, output, pollution};
 
@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         ],
     )?;
     let noise = match &arguments.noise {
-        Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise).checked()?)),
+        Some(RespondNoise::Noise(noise)) => Some((noise, pollution(noise)?.checked()?)),
         None => None,
     };
     let picture = Picture::asked(arguments)?;
@@ -109,11 +109,11 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         }))?);
     }
     print(&format!(
-        "{}: {} functions of {} lines\nwrote {}{}",
+        "{}: {} functions of {} lines\n{}{}",
         study.name,
         answers.functions.len(),
         answers.frequency_hz.len(),
-        output.display(),
+        Wrote(output),
         also(&[arguments.report.as_ref(), arguments.deviations.as_ref()])
     ))
 }

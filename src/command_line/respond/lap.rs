@@ -8,7 +8,7 @@ use bolted_joint::respond::{RespondStudy, ResponseTable};
 use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
-use super::super::output::{check_output, has_extension, print, warn, write_file};
+use super::super::output::{Wrote, check_output, has_extension, print, warn, write_file};
 use super::super::progress::Progress;
 use super::RespondArguments;
 use super::picture::{Picture, also};
@@ -62,10 +62,10 @@ pub(super) fn run(
         return judged(&study);
     }
     print(&format!(
-        "{}: {} series, {rows} rows\nwrote {}{}",
+        "{}: {} series, {rows} rows\n{}{}",
         study.name,
         table.series.len(),
-        output.display(),
+        Wrote(output),
         also(&[arguments.report.as_ref()])
     ))?;
     judged(&study)

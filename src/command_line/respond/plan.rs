@@ -9,7 +9,7 @@ use bolted_joint::study::{Method, StudyText};
 
 use super::super::error::CliError;
 use super::super::identify::chain::{apart_json, apart_text};
-use super::super::output::{CSV, check_outputs, print, warn, write_file};
+use super::super::output::{CSV, Wrote, check_outputs, print, warn, write_file};
 use super::super::table::{Table, number};
 use super::RespondArguments;
 
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
     }
     let mut text = summary(&study, &plan, &aim);
     if let Some(path) = output {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = writeln!(text, "{}", Wrote(path));
     }
     print(&text)
 }

@@ -14,7 +14,7 @@ fn unknown_keys_and_methods_are_told_with_their_line() {
     refused("hardness =", "hardnes =", &["study.toml", "line 17", "hardnes"]);
     refused("\"fractal-contact\"", "\"fractals\"", &["line 1", "fractals", "layered-beam"]);
     refused("[damping]\n", "[dampening]\n", &["dampening"]);
-    refused("method = \"fractal-contact\"\n", "", &["missing field `method`"]);
+    refused("method = \"fractal-contact\"\n", "", &["`method`: found nothing, expected one of"]);
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn surfaces_that_cannot_be_are_refused() {
         &["`surface`", "one of [surface.a] and [surface.b]", "both"]);
     let bench = bench(STUDY);
     bench.edit("study.toml", "fractal_dimension = 1.42\nroughness = 1.21e-8\n", "profiles = [\"p.csv\"]\n");
-    bench.refused(PREDICT, &["p.csv: cannot be read"]);
+    bench.refused(PREDICT, &["`surface.profiles`: found \"p.csv\", which is not there"]);
     bench.write("p.csv", "distance_um,height_um\n0,0.1\n1,0.2\n");
     bench.refused(PREDICT, &["p.csv", "2 points", "at least 3"]);
 }

@@ -66,6 +66,7 @@ fn deviations_that_have_no_meaning_are_refused() {
         ("[a]\n", "[a]\nground = true\n", ["`a`: found ground = true and modal and joint", "`b.joint` says where"]),
         ("joint = { x = 0.015 }\n", "", ["`b.joint`: found nothing", "the joint's place on this structure"]),
         ("[noise]", "[budget]\njoint_inertia = -1\n[noise]", ["`budget.joint_inertia`: found -1", "kg·m²"]),
+        ("[noise]", "[budget]\ngain = 5\n[noise]", ["`budget.gain`: found 5", "0.05 is 5 %"]),
     ];
     let text = BEAMS.replace("budget = \"none\"", "#");
     bench.refused_edits(IDENTIFY, ("study.toml", &text), &cases);

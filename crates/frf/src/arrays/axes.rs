@@ -116,21 +116,13 @@ pub(super) fn order(
         )
     };
     if let Some(stated) = stated {
-        return match fits(stated) {
-            true => Ok(stated.to_vec()),
-            false => Err(wrong_shape()),
-        };
+        // those that fit differ at most in which axes of length one they name
+        let found = with_some_missing(stated).find(|order| fits(order));
+        return found.ok_or_else(wrong_shape);
     }
     let mut found: Vec<Vec<Over>> = Vec::new();
     for full in ORDERS {
-        let candidates = (0..8_u8).map(|missing| {
-            let there = |index: &usize| missing & (1 << index) == 0;
-            (0..3)
-                .filter(there)
-                .map(|index| full[index])
-                .collect::<Vec<_>>()
-        });
-        for candidate in candidates.filter(|order| fits(order)) {
+        for candidate in with_some_missing(&full).filter(|order| fits(order)) {
             if !found
                 .iter()
                 .any(|known| same_elements(known, &candidate, counts))
@@ -153,6 +145,14 @@ pub(super) fn order(
             ))
         }
     }
+}
+
+/// An order, and what is left of it where axes are missing, as MATLAB leaves out those of length one at the end.
+fn with_some_missing(order: &[Over]) -> impl Iterator<Item = Vec<Over>> {
+    (0..1_u8 << order.len()).map(|missing| {
+        let there = (0..order.len()).filter(|index| missing & (1 << index) == 0);
+        there.map(|index| order[index]).collect()
+    })
 }
 
 /// Whether two orders differ at most in where axes of length one stand.
@@ -223,6 +223,23 @@ mod tests {
             [Frequency]
         );
         assert!(order("frf", &[1, 1, 1], counts(1, 1, 1), None).is_ok());
+    }
+
+    #[test]
+    fn an_axis_of_one_that_the_file_names_may_be_missing_too() {
+        let stated = named("frequency,response,reference").unwrap();
+        let found = |shape: &[usize], counts| order("frf", shape, counts, Some(&stated));
+        assert_eq!(
+            found(&[100, 3], counts(3, 1, 100)).unwrap(),
+            [Frequency, Response]
+        );
+        // three responses at three frequencies: only the file tells which axis is which
+        assert_eq!(
+            found(&[3, 3], counts(3, 1, 3)).unwrap(),
+            [Frequency, Response]
+        );
+        assert!(found(&[3, 100], counts(3, 1, 100)).is_err());
+        assert!(found(&[100, 3], counts(3, 2, 100)).is_err());
     }
 
     #[test]

@@ -94,11 +94,17 @@ pub(super) struct Column {
     pub(super) unit: Option<String>,
 }
 
-/// A name without its unit, which stands in brackets at the end.
+/// A name without its unit, which stands in brackets at the end, or behind a blank in parentheses.
 pub(super) fn split_unit(name: &str) -> (&str, Option<&str>) {
-    match (name.find('['), name.strip_suffix(']')) {
-        (Some(at), Some(inner)) => (name[..at].trim(), Some(inner[at + 1..].trim())),
-        _ => (name, None),
+    let place = match name.chars().last() {
+        Some(']') => name.find('['),
+        // "(m/s^2)/(N)" has no parentheses around it
+        Some(')') => name.rfind(" (").map(|blank| blank + 1),
+        _ => None,
+    };
+    match place {
+        Some(at) => (name[..at].trim(), Some(name[at + 1..name.len() - 1].trim())),
+        None => (name, None),
     }
 }
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::column::{Column, Columns, Part, quantity, split_unit};
-use super::number::Decimal;
 use crate::{Dof, Quantity, TableProblem};
+use bolted_joint_files::Decimal;
 use bolted_joint_files::text_table::{Cells, separator};
 
 /// What comments of the form `# key = value` say of all functions.
@@ -187,7 +187,10 @@ fn unit_of_cell(cell: &str) -> Option<&str> {
 
 /// The unit in the name of the first column, which holds frequencies in Hz.
 fn frequency_unit(name: &str) -> Result<Option<String>, TableProblem> {
-    let (word, unit) = split_unit(name);
+    let (word, unit) = match name.rsplit_once('_') {
+        Some((word, unit)) => (word, Some(unit)),
+        None => split_unit(name),
+    };
     let is_frequency = ["frequency", "freq", "f"]
         .iter()
         .any(|known| word.eq_ignore_ascii_case(known));

@@ -10,5 +10,4 @@ mod number;
 mod read;
 mod row;
 
-pub use number::Decimal;
 pub use read::{read_csv, read_csv_from};

@@ -1,73 +1,38 @@
-//! Numbers of a table, with a decimal point or a decimal comma, but not both in one file.
+//! Complex numbers of a table, as programs write them.
 
+use bolted_joint_files::Decimal;
 use num_complex::Complex64;
 
-/// How decimals are marked in a file, as far as its numbers have shown it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Decimal {
-    /// Whole numbers only so far, in a file whose separator leaves the comma free.
-    Either,
-    /// A decimal point.
-    Point,
-    /// A decimal comma.
-    Comma,
-}
-
-impl Decimal {
-    /// The number, and what its file is now known to use.
-    pub fn parse(self, text: &str) -> Option<(f64, Self)> {
-        let used = match (text.contains('.'), text.contains(',')) {
-            (false, false) => self,
-            (true, false) if self != Self::Comma => Self::Point,
-            (false, true) if self != Self::Point => Self::Comma,
-            _ => return None,
-        };
-        // `f64::from_str` takes words too; those are not what a table's cell should say by accident.
-        let number = text.bytes().any(|byte| byte.is_ascii_digit());
-        let word = ["nan", "+nan", "-nan", "inf", "+inf", "-inf"]
-            .iter()
-            .any(|word| text.eq_ignore_ascii_case(word));
-        if !(number || word) {
-            return None;
-        }
-        let value = match used {
-            Self::Comma => text.replace(',', ".").parse().ok()?,
-            _ => text.parse().ok()?,
-        };
-        Some((value, used))
-    }
-
-    /// A complex number as programs write it, and what its file is now known to use: `1.2+3.4j`, `(1.2-3.4i)`, `5j`, `1.2`.
-    pub(super) fn parse_complex(self, text: &str) -> Option<(Complex64, Self)> {
-        let text = text.trim();
-        let inner = text
-            .strip_prefix('(')
-            .and_then(|text| text.strip_suffix(')'));
-        let text = inner.unwrap_or(text).trim();
-        let Some(parts) = text.strip_suffix(['i', 'j', 'I', 'J']) else {
-            let (real, used) = self.parse(text)?;
-            return Some((Complex64::from(real), used));
-        };
-        let parts = parts.trim_end().trim_end_matches('*');
-        // the sign between the parts is the last one that is no exponent's
-        let bytes = parts.as_bytes();
-        let between = (1..bytes.len()).rev().find(|&place| {
-            matches!(bytes[place], b'+' | b'-')
-                && !(matches!(bytes[place - 1], b'e' | b'E') && is_digit_before(bytes, place - 1))
-        });
-        let (real, imaginary) = parts.split_at(between.unwrap_or(0));
-        let imaginary: String = imaginary.split_whitespace().collect();
-        let (real, used) = match real.trim() {
-            "" => (0.0, self),
-            real => self.parse(real)?,
-        };
-        let (imaginary, used) = match imaginary.as_str() {
-            "" | "+" => (1.0, used),
-            "-" => (-1.0, used),
-            imaginary => used.parse(imaginary)?,
-        };
-        Some((Complex64::new(real, imaginary), used))
-    }
+/// A complex number as programs write it, and what its file is now known to use: `1.2+3.4j`, `(1.2-3.4i)`, `5j`, `1.2`.
+pub(super) fn parse_complex(decimal: Decimal, text: &str) -> Option<(Complex64, Decimal)> {
+    let text = text.trim();
+    let inner = text
+        .strip_prefix('(')
+        .and_then(|text| text.strip_suffix(')'));
+    let text = inner.unwrap_or(text).trim();
+    let Some(parts) = text.strip_suffix(['i', 'j', 'I', 'J']) else {
+        let (real, used) = decimal.parse(text)?;
+        return Some((Complex64::from(real), used));
+    };
+    let parts = parts.trim_end().trim_end_matches('*');
+    // the sign between the parts is the last one that is no exponent's
+    let bytes = parts.as_bytes();
+    let between = (1..bytes.len()).rev().find(|&place| {
+        matches!(bytes[place], b'+' | b'-')
+            && !(matches!(bytes[place - 1], b'e' | b'E') && is_digit_before(bytes, place - 1))
+    });
+    let (real, imaginary) = parts.split_at(between.unwrap_or(0));
+    let imaginary: String = imaginary.split_whitespace().collect();
+    let (real, used) = match real.trim() {
+        "" => (0.0, decimal),
+        real => decimal.parse(real)?,
+    };
+    let (imaginary, used) = match imaginary.as_str() {
+        "" | "+" => (1.0, used),
+        "-" => (-1.0, used),
+        imaginary => used.parse(imaginary)?,
+    };
+    Some((Complex64::new(real, imaginary), used))
 }
 
 /// Whether what stands before this place is a number, so that the letter there is its exponent's.
@@ -78,22 +43,6 @@ fn is_digit_before(bytes: &[u8], place: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_file_has_points_or_commas() {
-        let parse = |decimal: Decimal, text| decimal.parse(text).map(|(number, _)| number);
-        assert_eq!(parse(Decimal::Either, "1,5e-3"), Some(1.5e-3));
-        assert_eq!(parse(Decimal::Either, "1.5e-3"), Some(1.5e-3));
-        assert_eq!(Decimal::Either.parse("1,5"), Some((1.5, Decimal::Comma)));
-        assert_eq!(Decimal::Comma.parse("15"), Some((15.0, Decimal::Comma)));
-        assert_eq!(parse(Decimal::Comma, "1.5"), None);
-        assert_eq!(parse(Decimal::Point, "1,5"), None);
-        for text in [
-            "1.234,5", "1,234.5", "1,234,5", "", "abc", "1 000", "infinity",
-        ] {
-            assert_eq!(parse(Decimal::Either, text), None, "{text}");
-        }
-    }
 
     #[test]
     fn complex_numbers_are_those_of_numpy_matlab_and_spreadsheets() {
@@ -111,20 +60,20 @@ mod tests {
             ("7", 7.0, 0.0),
             ("nan+nanj", f64::NAN, f64::NAN),
         ] {
-            let (found, _) = Decimal::Either.parse_complex(text).unwrap();
+            let (found, _) = parse_complex(Decimal::Either, text).unwrap();
             let same = |a: f64, b: f64| a == b || a.is_nan() && b.is_nan();
             assert!(
                 same(found.re, real) && same(found.im, imaginary),
                 "{text}: {found}"
             );
         }
-        let (found, used) = Decimal::Either.parse_complex("1,2+3,4i").unwrap();
+        let (found, used) = parse_complex(Decimal::Either, "1,2+3,4i").unwrap();
         assert_eq!((found, used), (Complex64::new(1.2, 3.4), Decimal::Comma));
         for text in [
             "", "1+2", "1.2+3.4", "1++2j", "1,2+3.4j", "i1", "1+2jj", "(1+2j", "e-i", "1e-+2j",
             "()", "2+i3",
         ] {
-            assert_eq!(Decimal::Either.parse_complex(text), None, "{text}");
+            assert_eq!(parse_complex(Decimal::Either, text), None, "{text}");
         }
     }
 }

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use bolted_joint_files::Decimal;
 use bolted_joint_files::text_table::Cells;
 use num_complex::Complex64;
 
 use super::column::{Columns, Form};
 use super::header::{Header, Keys, Names};
-use super::number::Decimal;
 use super::row::Row;
 use crate::gathered::Gathered;
 use crate::read::opened;
@@ -258,10 +258,7 @@ impl<R: BufRead> Rows<'_, R> {
         wanted: &mut [Wanted<'_>],
         options: &ReadOptions,
     ) -> Result<(), FrfError> {
-        let mut decimal = match header.separator {
-            ',' => Decimal::Point,
-            _ => Decimal::Either,
-        };
+        let mut decimal = Decimal::beside(header.separator);
         let mut tokeniser = Cells::separated_by(header.separator);
         let mut before_hz = None;
         while self.advance_to_cells()? {

@@ -3,8 +3,9 @@
 use num_complex::Complex64;
 
 use super::column::Form;
-use super::number::Decimal;
+use super::number::parse_complex;
 use crate::TableProblem;
+use bolted_joint_files::Decimal;
 
 /// The cells of a row, and how decimals are marked in the file so far.
 pub(super) struct Row<'row> {
@@ -22,7 +23,7 @@ impl Row<'_> {
     }
 
     fn complex(&mut self, place: usize) -> Result<Complex64, TableProblem> {
-        let found = self.decimal.parse_complex(self.cells[place]);
+        let found = parse_complex(*self.decimal, self.cells[place]);
         let (number, used) = found.ok_or_else(|| self.no_number(place, "1.2+3.4j"))?;
         *self.decimal = used;
         Ok(number)

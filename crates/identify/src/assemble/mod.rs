@@ -6,6 +6,7 @@ mod belonging;
 mod both_sides;
 mod known_mass;
 mod labelled;
+mod named_bands;
 mod prediction;
 mod reader;
 mod repeats;
@@ -81,6 +82,7 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
         }
         all.push(lines);
     }
+    reader.warnings.extend(named_bands::warnings(study, &all)?);
     reader.warnings.sort();
     reader.warnings.dedup();
     let mut from_modes: Vec<FromModes> = Vec::new();

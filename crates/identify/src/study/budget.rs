@@ -107,7 +107,11 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
         };
         let expected =
             format!("a standard deviation{unit} that is finite and not negative, or \"exact\"");
-        study.not_negative(format_args!("budget.{name}"), value, expected)?;
+        let key = format_args!("budget.{name}");
+        study.not_negative(key, value, expected)?;
+        if unit.is_empty() {
+            study.part_of_whole(key, value)?;
+        }
         Ok::<f64, StudyError>(value)
     };
     Ok(Budget {

@@ -461,6 +461,9 @@ impl Study {
         )?;
         let mut assemblies = Vec::new();
         for table in file.assembly {
+            let measured = std::iter::once(&table.frf).chain(&table.repeats);
+            let files = measured.map(|paths| paths.first.as_path());
+            study.every_file_once("assembly", files)?;
             let own = |key, table: Option<_>, otherwise: &Substructure| match table {
                 Some(table) => check::substructure(study, key, table, model, &bolts),
                 None => Ok(otherwise.clone()),
@@ -494,6 +497,7 @@ impl Study {
             check::positions(study, "a", of_a, &assembly.a)?;
             assemblies.push(assembly);
         }
+        check::every_assembly_once(study, &assemblies)?;
         check::torques(study, file.joint.torques, &assemblies)?;
         if assemblies.iter().any(|assembly| assembly.points_on_a > 0) {
             check::one_noise(study, file.noise.as_ref())?;

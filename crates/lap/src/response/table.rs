@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use bolted_joint_files::Decimal;
 use bolted_joint_files::text_file::{self, TextFileError};
 use bolted_joint_files::text_table::{self, Cells};
 
@@ -16,7 +17,7 @@ pub(super) struct NumberTable<'p> {
 }
 
 impl<'p> NumberTable<'p> {
-    /// Reads a table: comment lines with `#`, a header, rows of numbers.
+    /// Reads a table: comment lines with `#`, a header, rows of numbers. Separators and decimals are those of every table.
     pub(super) fn read(path: &'p Path) -> Result<Self, TextFileError> {
         let text = text_file::read(path, "a table of responses (CSV)")?;
         let problem = |line, found: String, expected: &str| {
@@ -30,7 +31,9 @@ impl<'p> NumberTable<'p> {
                 "a header and rows of numbers",
             ));
         };
-        let mut tokeniser = Cells::separated_by(',');
+        let separator = text_table::separator(header);
+        let mut decimal = Decimal::beside(separator);
+        let mut tokeniser = Cells::separated_by(separator);
         let names: Vec<String> = tokeniser
             .of(header)
             .into_iter()
@@ -53,13 +56,19 @@ impl<'p> NumberTable<'p> {
                 return Err(problem(
                     line,
                     format!("{} cells", cells.len()),
-                    &format!("{} as in the header", names.len()),
+                    &format!(
+                        "{} as in the header; with decimal commas, separate the columns by semicolons",
+                        names.len()
+                    ),
                 ));
             }
             let number = |cell: &&str| match *cell {
                 "" => Ok(None),
-                text => match text.parse::<f64>() {
-                    Ok(value) if value.is_finite() => Ok(Some(value)),
+                text => match decimal.parse(text) {
+                    Some((value, used)) if value.is_finite() => {
+                        decimal = used;
+                        Ok(Some(value))
+                    }
                     _ => Err(problem(line, format!("{text:?}"), "a finite number")),
                 },
             };

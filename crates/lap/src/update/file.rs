@@ -6,7 +6,7 @@ use super::problem::Range;
 use super::{LapUpdate, TorqueUpdate};
 use bolted_joint_joint::{
     Bodies, Body, DofSet, Format, Joint, JointFile, OverPreload, Residual, StandardDeviation,
-    Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
+    Status, Uncertainty, UncertaintyAtPreload, UncertaintyOverPreload, Validity,
 };
 
 impl LapUpdate {
@@ -53,7 +53,7 @@ impl LapUpdate {
             about: None,
             format: Format::V1,
             name,
-            status: None,
+            status: Status::against(torque.reason_against().as_slice()),
             joint: Joint {
                 cubic: vec![torque.file_value(LapParameter::JointCubic)],
                 ..Joint::linear(
@@ -81,6 +81,7 @@ impl LapUpdate {
         let all: Vec<&TorqueUpdate> = self.torques.iter().collect();
         let mut file = self.file(nominal);
         file.name.clone_from(&self.name);
+        file.status = Status::against(&self.reasons_against());
         file.joint = Joint {
             stiffness: Vec::new(),
             damping: Vec::new(),

@@ -6,6 +6,7 @@ mod firefly;
 mod identifiability;
 mod least_squares;
 mod problem;
+mod reliability;
 mod study;
 mod warnings;
 

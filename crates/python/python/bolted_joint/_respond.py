@@ -201,7 +201,7 @@ def respond(
     step_hz: float | None = None,
     noise: str | None = None,
     noise_level: float = 0.01,
-    noise_samples: int = 4096,
+    noise_samples: int | None = None,
     seed: int = 1,
     deviations: bool = False,
     report: str | os.PathLike[str] | None = None,
@@ -228,7 +228,7 @@ def respond(
     step_hz: float | None = None,
     noise: str | None = None,
     noise_level: float = 0.01,
-    noise_samples: int = 4096,
+    noise_samples: int | None = None,
     seed: int = 1,
     deviations: bool = False,
     report: str | os.PathLike[str] | None = None,
@@ -242,7 +242,7 @@ def respond(
     step_hz: float | None = None,
     noise: str | None = None,
     noise_level: float = 0.01,
-    noise_samples: int = 4096,
+    noise_samples: int | None = None,
     seed: int = 1,
     deviations: bool = False,
     report: str | os.PathLike[str] | None = None,
@@ -267,8 +267,8 @@ def respond(
         factor, or responses and forces of a harmonic test at each line have white noise.
     noise_level : float
         Standard deviation of the factor, or as a fraction of the highest response.
-    noise_samples : int
-        Samples of each harmonic test.
+    noise_samples : int, optional
+        Samples of each harmonic test of ``"response"``; 4096 if it is left out.
     seed : int
         Seed of the noise.
     deviations : bool
@@ -302,7 +302,8 @@ def respond(
     if noise is not None:
         options += ["noise", one_of("noise", noise, ("frf", "response"))]
         options += ["--level", repr(number("noise_level", noise_level))]
-        options += ["--samples", str(whole("noise_samples", noise_samples, 1))]
+        if noise_samples is not None:
+            options += ["--samples", str(whole("noise_samples", noise_samples, 1))]
         options += ["--seed", str(whole("seed", seed, 0))]
     return answered(study, joint, options, plan=plan, deviations=deviations)
 

@@ -217,9 +217,9 @@ def convert(
     tool: str,
     path: str | os.PathLike[str],
     *,
-    nodes: tuple[int, int] = (1, 2),
-    rotation_nodes: tuple[int, int] = (3, 4),
-    first_number: int = 1001,
+    nodes: tuple[int, int] | None = None,
+    rotation_nodes: tuple[int, int] | None = None,
+    first_number: int | None = None,
     preload_n_m: float | None = None,
     at_rest: bool = False,
 ) -> Path:
@@ -233,12 +233,12 @@ def convert(
         The tool.
     path : path
         The file to write; a function of MATLAB and a package of Modelica get its name.
-    nodes : pair of int
-        Nodes on sides a and b.
-    rotation_nodes : pair of int
-        Nodes whose displacements are the rotations of sides a and b (CalculiX).
-    first_number : int
-        First of free numbers for elements, properties and auxiliary nodes.
+    nodes : pair of int, optional
+        Nodes on sides a and b, for programs of finite elements; 1 and 2 if they are left out.
+    rotation_nodes : pair of int, optional
+        Nodes whose displacements are the rotations of sides a and b, for CalculiX; 3 and 4 if they are left out.
+    first_number : int, optional
+        First of free numbers for elements, properties and auxiliary nodes; 1001 if it is left out.
     preload_n_m : float, optional
         Preload at which a joint over the preload is taken, N·m.
     at_rest : bool
@@ -258,8 +258,12 @@ def convert(
         joint = joint_of(joint)
         given = _joint_file(joint, Path(folder, "given.joint.json"), "joint")
         arguments = ["convert", given, "--to", one_of("tool", tool, _TOOLS), "-o", path_of(path)]
-        arguments += ["--nodes", _pair("nodes", nodes), "--rotation-nodes", _pair("rotation_nodes", rotation_nodes)]
-        arguments += ["--first-number", str(whole("first_number", first_number, 1))]
+        if nodes is not None:
+            arguments += ["--nodes", _pair("nodes", nodes)]
+        if rotation_nodes is not None:
+            arguments += ["--rotation-nodes", _pair("rotation_nodes", rotation_nodes)]
+        if first_number is not None:
+            arguments += ["--first-number", str(whole("first_number", first_number, 1))]
         if preload_n_m is not None:
             arguments += ["--preload", repr(number("preload_n_m", preload_n_m))]
         if at_rest:

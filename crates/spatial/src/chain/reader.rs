@@ -110,11 +110,19 @@ impl Reader<'_> {
         table: &FrequencyTable,
         step_hz: Option<f64>,
     ) -> Result<Vec<f64>, StudyError> {
-        let (Some(from_hz), Some(to_hz), Some(step_hz)) = (table.from, table.to, step_hz) else {
+        let what = "no part has a file of functions, whose lines would be used";
+        let (Some(from_hz), Some(to_hz)) = (table.from, table.to) else {
             return self.study.refuse(
                 "frequency",
-                "no lines: no part has a file of functions",
-                "`from` and `to` in Hz, and `--step` between lines at the command line",
+                format_args!("no lines: {what}"),
+                "`from` and `to` in Hz",
+            );
+        };
+        let Some(step_hz) = step_hz else {
+            return self.study.refuse(
+                "frequency",
+                format_args!("from {from_hz} to {to_hz} Hz alone, and {what}"),
+                "the distance between lines in Hz as well: `--step` at the command line, such as `--step 1`",
             );
         };
         let count = ((to_hz - from_hz) / step_hz + 1e-9).floor() + 1.0;

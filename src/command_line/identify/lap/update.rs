@@ -30,6 +30,7 @@ pub(in super::super) fn run(
         check_output(output, &[&arguments.study])?;
     }
     let warnings = found.warnings();
+    let against = found.reasons_against();
     let mut files = Outputs::new();
     for (output, (_, file)) in outputs.iter().zip(&joint_files) {
         let text = file.to_json()?;
@@ -39,9 +40,12 @@ pub(in super::super) fn run(
         convergence_figure(&found).unwrap_or_default()
     });
     if let Some(written) = written {
+        let reasons = against.iter();
+        let reasons = reasons.map(|reason| format!("not to be relied on: {reason}"));
+        let all: Vec<String> = reasons.chain(warnings.iter().cloned()).collect();
         let page = LapUpdateReport {
             found: &found,
-            warnings: &warnings,
+            warnings: &all,
             written,
         };
         files.add(arguments.report.as_ref(), || page.to_html());
@@ -49,9 +53,11 @@ pub(in super::super) fn run(
     files.write()?;
     warn(&warnings);
     if arguments.json {
-        return print(&serde_json::to_string_pretty(&as_json(&found, &outputs))?);
+        print(&serde_json::to_string_pretty(&as_json(&found, &outputs))?)?;
+    } else {
+        print(&(summary(&found) + &files.written()))?;
     }
-    print(&(summary(&found) + &files.written()))
+    CliError::unless_usable(&arguments.output, &against)
 }
 
 fn as_json(found: &LapUpdate, outputs: &[std::path::PathBuf]) -> serde_json::Value {
@@ -91,6 +97,8 @@ fn as_json(found: &LapUpdate, outputs: &[std::path::PathBuf]) -> serde_json::Val
     json!({
         "outputs": outputs.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
         "torques": torques,
+        "usable": found.reasons_against().is_empty(),
+        "reasons_against": found.reasons_against(),
         "warnings": found.warnings(),
     })
 }

@@ -1,9 +1,9 @@
 //! `[assembly]`: files of functions, points and torque.
 
-use super::super::FrfFile;
 use super::super::Substructure;
 use super::super::set_up::Accelerometer;
 use super::super::tables::{NoiseTable, UnitsTable};
+use super::super::{FrfFile, FurtherAssembly};
 use super::stated::not_negative;
 use bolted_joint_frf::{Dof, Quantity, UnitSystem};
 use bolted_joint_study::{Paths, Stated, StudyError, StudyText};
@@ -89,6 +89,33 @@ pub(crate) fn points(
         }
     }
     Ok(points)
+}
+
+/// The same functions under the same points are one measurement, not two.
+pub(crate) fn every_assembly_once(
+    study: &StudyText,
+    all: &[FurtherAssembly],
+) -> Result<(), StudyError> {
+    for (place, assembly) in all.iter().enumerate() {
+        let mut before = all[..place].iter();
+        let is_same = |other: &FurtherAssembly| {
+            other
+                .file
+                .function_files()
+                .eq(assembly.file.function_files())
+                && other.points == assembly.points
+        };
+        study.ensure(
+            !before.any(is_same),
+            format_args!("assembly[{}].frf", place + 1),
+            format_args!(
+                "{} with the same points as before",
+                assembly.file.path.display()
+            ),
+            "every measurement once: it would count as two",
+        )?;
+    }
+    Ok(())
 }
 
 /// Every point of the assembly on the structure `[side]` has a place there if it is a beam, and if it is a measured structure where

@@ -10,7 +10,7 @@ mod substructure;
 mod torque;
 
 pub(super) use assembly::{
-    MeasuredAs, frf_file, no_positions, one_noise, points, positions, torque,
+    MeasuredAs, every_assembly_once, frf_file, no_positions, one_noise, points, positions, torque,
 };
 pub(super) use bolts::bolts;
 pub(super) use settings::{bands, bodies, noise};

@@ -192,6 +192,12 @@ impl LapResponseStudy {
         )?;
         let range_hz = study.frequency_range_hz(&file.frequency)?;
         let known = known(study, &file)?;
+        let fitted = file.sine.iter().filter(|own| is_fitted(own.used_for));
+        study.every_file_once("sine.file", fitted.map(|own| own.file.as_path()))?;
+        let fitted = file.backbone.iter().filter(|own| is_fitted(own.used_for));
+        study.every_file_once("backbone.file", fitted.map(|own| own.file.as_path()))?;
+        let fitted = file.decay.iter().filter(|own| is_fitted(own.used_for));
+        study.every_file_once("decay.file", fitted.map(|own| own.file.as_path()))?;
         let sines = file.sine.into_iter().map(|table| {
             let phase_sign = match table.phase_sign {
                 None | Some(1) => 1.0,

@@ -81,7 +81,10 @@ pub(super) fn noise(
         let key = format!("noise.{name}");
         study.not_negative(&key, value, "a number that is not negative")?;
         let expected = "a fraction above zero: a measurement has errors";
-        study.ensure(may_vanish || value != 0.0, key, value, expected)?;
+        study.ensure(may_vanish || value != 0.0, &key, value, expected)?;
+        if name != "floor_m" {
+            study.part_of_whole(key, value)?;
+        }
     }
     let is_of_curves = table.frequency.is_some();
     let otherwise = Noise::default();

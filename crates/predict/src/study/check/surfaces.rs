@@ -169,6 +169,8 @@ impl Checker<'_> {
         let key_of_them = format!("{key}.profiles");
         self.study
             .ensure(found_any, &key_of_them, "none", "one file or more")?;
+        let files = paths.iter().map(PathBuf::as_path);
+        self.study.every_file_once(&key_of_them, files)?;
         if let Some(band) = table.band {
             self.check_band(&format!("{key}.band"), band.from, band.to)?;
         }

@@ -1,0 +1,153 @@
+//! The files that a study names, by their keys: a missing one is told with its key, before anything is computed.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use bolted_joint_joint::nearest;
+use toml::{Table, Value};
+
+use super::{StudyError, StudyText};
+
+/// Keys whose texts are paths.
+const KEYS: [&str; 11] = [
+    "coherence",
+    "expected",
+    "field",
+    "file",
+    "frf",
+    "joint",
+    "known",
+    "matrices",
+    "modal",
+    "profiles",
+    "repeats",
+];
+
+/// A file that a study names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedFile {
+    /// The key, such as `assembly[2].frf`.
+    pub key: String,
+    /// The path as it is written.
+    pub name: String,
+    /// The path that is meant.
+    pub path: PathBuf,
+}
+
+impl StudyText {
+    /// The files that are named; none where the text is not TOML.
+    #[must_use]
+    pub fn named_files(&self) -> Vec<NamedFile> {
+        let tables = toml::from_str::<Table>(self.text()).unwrap_or_default();
+        let mut found = Vec::new();
+        self.walk("", &Value::Table(tables), false, &mut found);
+        found
+    }
+
+    fn walk(&self, key: &str, value: &Value, is_path: bool, found: &mut Vec<NamedFile>) {
+        match value {
+            Value::Table(table) => {
+                for (own, value) in table {
+                    let key = match key {
+                        "" => own.clone(),
+                        key => format!("{key}.{own}"),
+                    };
+                    self.walk(&key, value, KEYS.contains(&own.as_str()), found);
+                }
+            }
+            Value::Array(values) => {
+                for (place, value) in (1..).zip(values) {
+                    let key = match value {
+                        Value::Table(_) => format!("{key}[{place}]"),
+                        _ => key.to_owned(),
+                    };
+                    self.walk(&key, value, is_path, found);
+                }
+            }
+            Value::String(name) if is_path => found.push(NamedFile {
+                key: key.to_owned(),
+                name: name.clone(),
+                path: self.resolved(Path::new(name)),
+            }),
+            _ => {}
+        }
+    }
+
+    /// Refuses the first of these files that is not there.
+    ///
+    /// # Errors
+    /// [`StudyError::Value`] with its key.
+    pub fn check_is_there(&self, files: &[NamedFile]) -> Result<(), StudyError> {
+        let is_missing = |file: &&NamedFile| {
+            let found = fs::metadata(&file.path);
+            found.is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
+        };
+        let Some(missing) = files.iter().find(is_missing) else {
+            return Ok(());
+        };
+        let found = format!("{:?}, which is not there", missing.name);
+        let expected = "the path of a file, relative to the study's own folder";
+        let advice = match missing.name.contains(char::is_control) {
+            true => format!("; {ESCAPES}"),
+            false => suggestion(&missing.path),
+        };
+        self.refuse(&missing.key, found, format_args!("{expected}{advice}"))
+    }
+}
+
+/// What is said where a backslash in a text of TOML was meant as such.
+pub(super) const ESCAPES: &str =
+    "in \"…\" a backslash begins an escape: write a path in '…', or with forward slashes";
+
+/// A file beside the missing one that may have been meant.
+fn suggestion(missing: &Path) -> String {
+    let folder = match missing.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .filter_map(|entry| entry.file_name().into_string().ok())
+        .collect();
+    names.sort();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    // that endings are alike says nothing
+    let stem = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
+    let wanted = missing.file_name().and_then(|name| name.to_str());
+    let meant = wanted.and_then(|wanted| {
+        let name = nearest(wanted, &names)?;
+        nearest(&stem(wanted), &[stem(name).as_str()])?;
+        Some(name)
+    });
+    meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_by_their_keys_and_missing_ones_told() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("beam.uff"), "").unwrap();
+        let text = "name = \"x.uff\"\n[a]\nfrf = [\"beam.uff\", \"baem.uff\"]\njoint = { y = \"2:+Y\" }\n[[assembly]]\nfrf = \"beam.uff\"\n\
+                    [[assembly]]\nfrf = \"C:\\temp.uff\"\n";
+        let study = StudyText::new(text, &folder.path().join("study.toml"));
+        let files = study.named_files();
+        let keys: Vec<&str> = files.iter().map(|file| file.key.as_str()).collect();
+        assert_eq!(
+            keys,
+            ["a.frf", "a.frf", "assembly[1].frf", "assembly[2].frf"]
+        );
+        let refused = study.check_is_there(&files).unwrap_err().to_string();
+        assert!(
+            refused.contains("`a.frf`: found \"baem.uff\", which is not there"),
+            "{refused}"
+        );
+        assert!(refused.ends_with("did you mean `beam.uff`?"), "{refused}");
+        let refused = study.check_is_there(&files[3..]).unwrap_err().to_string();
+        assert!(refused.contains("\"C:\\temp.uff\""), "{refused}");
+        assert!(refused.ends_with(ESCAPES), "{refused}");
+    }
+}

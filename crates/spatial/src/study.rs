@@ -78,7 +78,7 @@ impl SpatialStudy {
     /// [`StudyError`] that names the file and the key or line.
     pub fn of(study: &StudyText) -> Result<Self, StudyError> {
         let file: StudyFile = study.tables()?;
-        let chain = ChainStudy::measured(study)?;
+        let chain = ChainStudy::of_measured(study)?;
         let reader = Reader {
             study,
             motions: chain.motions,

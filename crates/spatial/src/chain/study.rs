@@ -57,7 +57,7 @@ impl ChainStudy {
     ///
     /// # Errors
     /// [`StudyError`] that names the file and the key or line.
-    pub fn measured(study: &StudyText) -> Result<Self, StudyError> {
+    pub fn of_measured(study: &StudyText) -> Result<Self, StudyError> {
         let file: StudyFile = study.tables()?;
         study.ensure(
             file.assembly.frf.is_some(),

@@ -63,11 +63,11 @@ def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(progra
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("draw", [11, 13, 17, 23, 52])
+@pytest.mark.parametrize("draw", [11, 13, 17, 23])
 def test_with_misplaced_sensors_between_bolts_a_joint_holds_or_is_refused(program, tmp_path, draw):
     """Draw 17 was 6.2 deviations off with slopes across bolts. In 11 a line beside a resonance, which its smooth fit does not predict,
     had 99 % of what is known of the accelerometer on A, which was 11 deviations off. Of 13 the data hardly know the second bolt, 20
-    deviations off, and of 23 the first one's rotation, 6 deviations off; of 52 the free estimate has a stiffness of
-    −146 ± 66 N·m/rad, and another of −2.2e6 ± 9e5 N/m."""
+    deviations off, and of 23 the first one's rotation, 6 deviations off. Of 60 draws `coverage.py` says the same; the one that
+    takes longest, 52, is only there."""
     z = bolted.a_little_wrong(program, tmp_path, draw, None, "different")
     assert abs(z).max() < 4.0 if draw in (11, 17) else z is None, z

@@ -72,20 +72,13 @@ impl SpatialStudy {
     /// [`StudyError`] that names the file and the key or line.
     pub fn of(study: &StudyText) -> Result<Self, StudyError> {
         let file: StudyFile = study.tables()?;
-        let chain = ChainStudy::of(study, None)?;
+        let chain = ChainStudy::of_measured(study)?;
         let reader = Reader {
             study,
             motions: chain.motions,
         };
-        let Some(assembly) = &chain.assembly else {
-            return study.refuse(
-                "assembly.frf",
-                "nothing",
-                "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`",
-            );
-        };
         let (sides, link) = chain.two_sides()?;
-        let observed = reader.observed(&sides, Some(assembly))?;
+        let observed = reader.observed(&sides, chain.assembly.as_ref())?;
         let frequency_hz = chain.problem.frequency_hz.clone();
         Ok(Self {
             motions: chain.motions,

@@ -15,7 +15,7 @@ use super::super::table::{Table, number};
 use super::IdentifyArguments;
 
 pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<(), CliError> {
-    let study = ChainStudy::of(study, None)?;
+    let study = ChainStudy::of_measured(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
     let found = study.identify()?;
     let files: Vec<(PathBuf, _)> = found

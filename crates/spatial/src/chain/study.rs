@@ -53,6 +53,22 @@ pub struct ChainStudy {
 }
 
 impl ChainStudy {
+    /// A study of an assembly that was measured, from its text, with the files that it names.
+    ///
+    /// # Errors
+    /// [`StudyError`] that names the file and the key or line.
+    pub fn of_measured(study: &StudyText) -> Result<Self, StudyError> {
+        let file: StudyFile = study.tables()?;
+        study.ensure(
+            file.assembly.frf.is_some(),
+            "assembly.frf",
+            "nothing",
+            "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`, and what an assembly answers \
+             whose joints are known `bolted-joint respond`",
+        )?;
+        Self::of(study, None)
+    }
+
     /// A study from its text, with the files that it names; lines `step_hz` apart where none of these has any.
     ///
     /// # Errors

@@ -40,9 +40,6 @@ pub(crate) fn noise(study: &StudyText, table: &NoiseTable) -> Result<Noise, Stud
     let of = |key: &str, table: LevelTable| {
         let usable = |value: f64| value.is_finite() && value >= 0.0;
         let LevelTable { relative, floor } = table;
-        if let Some(relative) = relative.filter(|&relative| usable(relative)) {
-            study.part_of_whole(format_args!("{key}.relative"), relative)?;
-        }
         let floor = floor.0;
         let parts = [
             ("relative", relative),

@@ -44,7 +44,7 @@ fn files_that_a_study_names_are_not_replaced() {
 fn joint_files_of_an_assembly_are_not_replaced() {
     let bench = example("two-beams");
     let says =
-        ["lap.joint.json: found it to be the file that `joints[1].file` of beams.toml names"];
+        ["lap.joint.json: found it to be the file that `joints[0].file` of beams.toml names"];
     bench.refused("export beams.toml -o lap.joint.json", &says);
     bench.refused("convert beams.toml --to modelica -o lap.joint.json", &says);
 }

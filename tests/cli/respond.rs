@@ -195,7 +195,7 @@ fn what_makes_no_sense_is_refused_with_file_and_key() {
     refused(
         &bench,
         &absent,
-        &["`lap[1].joint`: found \"ex99.joint.json\", which is not there"],
+        &["`lap[0].joint`: found \"ex99.joint.json\", which is not there"],
     );
     let none = text.replace("[[lap]]\njoint", "# ");
     refused(&bench, &none, &["`lap`", "at least one"]);

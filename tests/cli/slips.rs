@@ -82,7 +82,7 @@ fn a_missing_file_is_told_with_its_key() {
         bench.refused(
             command,
             &[
-                "beams.toml: `joints[1].file`",
+                "beams.toml: `joints[0].file`",
                 "did you mean `lap.joint.json`?",
             ],
         );
@@ -142,7 +142,7 @@ fn a_measurement_that_is_named_twice_is_refused() {
     bench.refused(IDENTIFY, &told);
     let one = format!("[[assembly]]\n{assembly}\n");
     bench.write("study.toml", format!("{before}{one}{one}[{after}"));
-    let told = ["`assembly[2].frf`: found c.uff with the same points"];
+    let told = ["`assembly[1].frf`: found c.uff with the same points"];
     bench.refused(IDENTIFY, &told);
     let bench = files_of("predict-four-bolts");
     bench.edit("study.toml", "\"a-2.csv\"", "\"a-1.csv\"");

@@ -27,7 +27,7 @@ const KEYS: [&str; 11] = [
 /// A file that a study names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
-    /// The key, such as `assembly[2].frf`.
+    /// The key, such as `assembly[1].frf`.
     pub key: String,
     /// The path as it is written.
     pub name: String,
@@ -57,7 +57,7 @@ impl StudyText {
                 }
             }
             Value::Array(values) => {
-                for (place, value) in (1..).zip(values) {
+                for (place, value) in values.iter().enumerate() {
                     let key = match value {
                         Value::Table(_) => format!("{key}[{place}]"),
                         _ => key.to_owned(),
@@ -138,7 +138,7 @@ mod tests {
         let keys: Vec<&str> = files.iter().map(|file| file.key.as_str()).collect();
         assert_eq!(
             keys,
-            ["a.frf", "a.frf", "assembly[1].frf", "assembly[2].frf"]
+            ["a.frf", "a.frf", "assembly[0].frf", "assembly[1].frf"]
         );
         let refused = study.check_is_there(&files).unwrap_err().to_string();
         assert!(

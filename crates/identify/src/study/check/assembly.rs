@@ -107,7 +107,7 @@ pub(crate) fn every_assembly_once(
         };
         study.ensure(
             !before.any(is_same),
-            format_args!("assembly[{}].frf", place + 1),
+            format_args!("assembly[{place}].frf"),
             format_args!(
                 "{} with the same points as before",
                 assembly.file.path.display()

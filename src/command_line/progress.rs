@@ -67,12 +67,14 @@ impl Progress {
 
     /// One more piece is done. May be called from any thread.
     pub(super) fn advance(&self) {
+        bolted_joint_wanted::look();
         self.has_begun();
         self.work.inc(1);
     }
 
     /// This part of the work is done, from 0 to 1.
     pub(super) fn reached(&self, share: f64) {
+        bolted_joint_wanted::look();
         self.has_begun();
         self.work.set_position((share * f64::from(FINE)) as u64);
     }

@@ -321,6 +321,14 @@ def test_six_motions_of_structures_in_a_plane_are_refused(run, tmp_path, model, 
     assert 'motions = ["x", "y", "rz"]' in told, told
 
 
+def test_a_structure_that_does_not_move_explains_nothing(run, tmp_path):
+    Rig(K, C).write(tmp_path, FREQUENCIES[::6], model='model = "diagonal"', more=EXACT)
+    functions = dict(np.load(tmp_path / "a.npz"))
+    np.savez(tmp_path / "a.npz", **functions | {"frf": 0 * functions["frf"]})
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3).stderr
+    assert "% of the functions: the model is not that of the data" in told, told
+
+
 def test_few_impacts_are_warned_of(run, tmp_path):
     Rig(K, C).write(tmp_path, FREQUENCIES, more=EXACT)
     study = tmp_path / "study.toml"

@@ -14,6 +14,9 @@ const LEAST_LEVEL: f64 = 1e-12;
 /// Likewise where errors of the set-up are estimated: nobody measures better, and beside less the budget would be lost.
 const LEAST_MEASURED: f64 = 1e-4;
 
+/// Σ |computed|² in parts of Σ |residual|² at least: a structure that does not move makes functions zero that were measured.
+const LEAST_COMPUTED: f64 = 1e-12;
+
 /// R.m.s. of each observed function.
 pub(crate) fn sizes(problem: &Problem) -> Deviations {
     let sizes = problem.observed.iter().map(|one| size(&one.values));
@@ -75,9 +78,10 @@ pub(crate) fn squares(
 
 pub(crate) fn relative_rms(problem: &Problem, unknowns: &Unknowns) -> Result<f64, SpatialError> {
     let squares = squares(problem, unknowns)?;
-    let parts = squares
-        .iter()
-        .map(|[residual, computed]| residual / computed);
+    let parts = squares.iter().map(|[residual, computed]| {
+        let least = (LEAST_COMPUTED * residual).max(f64::MIN_POSITIVE);
+        residual / computed.max(least)
+    });
     Ok(root_mean_square(parts))
 }
 

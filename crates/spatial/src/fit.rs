@@ -18,15 +18,23 @@ const NEAR: f64 = 1e-6;
 const FEW_STEPS: usize = 8;
 
 /// How far a search goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Effort {
     /// To where another one goes on from.
     Coarse,
     /// To the bottom as far as it matters: a small part of the deviations.
     Near,
+    /// To the bottom, unless it creeps far above this cost.
+    Promising(f64),
     /// To the bottom.
     Full,
 }
+
+/// Steps after which a search may be called creeping, and those over which it lowers the cost by less than half then.
+const PATIENCE: usize = 30;
+const CREEPING: usize = 10;
+/// How far above the cost of a search that is promising.
+const FAR_ABOVE: f64 = 10.0;
 
 /// What bends a step, in parts of its length at most: where it is more, the second derivatives do not say enough.
 const BENT_MOST: f64 = 0.375;
@@ -128,13 +136,22 @@ impl Fit {
         let (steps_max, settled) = match effort {
             Effort::Coarse => (FEW_STEPS, NEARLY_SETTLED),
             Effort::Near => (STEPS_MAX, NEAR),
-            Effort::Full => (STEPS_MAX, SETTLED),
+            Effort::Full | Effort::Promising(_) => (STEPS_MAX, SETTLED),
         };
         let mut normal = squares.normal(&start)?;
         let mut unknowns = start;
         let trust = Trust::of(squares.problem());
         let mut damping = trust.first();
+        let mut costs = Vec::new();
         for _ in 0..steps_max {
+            costs.push(normal.cost);
+            if is_creeping(effort, &costs) {
+                return Ok(Self {
+                    unknowns,
+                    cost: normal.cost,
+                    has_converged: false,
+                });
+            }
             let mut moved = None;
             while damping < DAMPING_MAX {
                 if let Some(bounded) = trust.at(squares.problem(), &unknowns, &normal, damping) {
@@ -168,6 +185,17 @@ impl Fit {
             has_converged,
         })
     }
+}
+
+/// Whether a search that has been at these costs is not worth while.
+fn is_creeping(effort: Effort, costs: &[f64]) -> bool {
+    let (Effort::Promising(promised), [.., last]) = (effort, costs) else {
+        return false;
+    };
+    let before = costs.iter().rev().nth(CREEPING);
+    costs.len() > PATIENCE
+        && *last > FAR_ABOVE * promised
+        && before.is_some_and(|before| *last > 0.5 * before)
 }
 
 /// In which metric a step is bounded.

@@ -1,7 +1,7 @@
 //! The joints alone, searched from several starts: some lead to other minima.
 
 use crate::error::SpatialError;
-use crate::fit::Fit;
+use crate::fit::{Effort, Fit};
 use crate::normal::Deviations;
 use crate::problem::Problem;
 use crate::starts::starts;
@@ -18,9 +18,12 @@ const BY_CHANCE: f64 = 3.0;
 /// Cost, in parts of the count of numbers, below which nothing is left that another minimum could be lower by.
 pub(crate) const NOTHING: f64 = 1e-9;
 
+/// Searches that crept far above what noise explains and are followed to the end, the lowest ones, where none was better.
+const FOLLOWED: usize = 3;
+
 /// The lowest of the searches, how many starts were tried and how many came as low. The others are not tried after one that noise
 /// explains, where its level is stated, or, where it is not, after two that agree or one that leaves nothing. Where noise does not
-/// explain the lowest, most of the starts have to lead there: it may be another minimum.
+/// explain the lowest, most of those that were followed to the end have to lead there: it may be another minimum.
 pub(crate) fn searched(
     problem: &Problem,
     level: &Deviations,
@@ -29,34 +32,58 @@ pub(crate) fn searched(
     let numbers = problem.numbers() as f64;
     // χ² of ν numbers is ν ± √(2 ν)
     let explained = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
-    let mut best: Option<Fit> = None;
-    let (mut tried, mut agreeing, mut is_explained) = (0, 0, false);
+    let effort = match is_stated {
+        true => Effort::Promising(explained),
+        false => Effort::Full,
+    };
+    let is_explained = |fit: &Fit| {
+        let leaves_nothing = fit.cost < NOTHING * numbers;
+        fit.has_converged && (leaves_nothing || is_stated && fit.cost < explained)
+    };
+    let mut ended: Vec<Fit> = Vec::new();
+    let mut crept: Vec<Fit> = Vec::new();
+    let mut tried = 0;
     for start in starts(problem, level)? {
         tried += 1;
-        let Ok(fit) = Fit::from(problem, start, level) else {
+        let Ok(fit) = Fit::of(problem, start, level, effort) else {
             continue;
         };
-        let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-        let as_low = AS_LOW * (lowest.min(fit.cost) + numbers);
-        agreeing = match fit.cost - lowest {
-            above if above > as_low => agreeing,
-            above if above >= -as_low => agreeing + 1,
-            _ => 1,
-        };
-        let leaves_nothing = fit.cost < NOTHING * numbers;
-        is_explained |= fit.has_converged && (leaves_nothing || is_stated && fit.cost < explained);
-        if fit.cost < lowest {
-            best = Some(fit);
+        match fit.has_converged || !is_stated {
+            true => ended.push(fit),
+            false => crept.push(fit),
         }
-        if is_explained || (agreeing > 1 && !is_stated) {
+        let has_agreed = !is_stated && agreeing(&ended, numbers) > 1;
+        if has_agreed || ended.last().is_some_and(is_explained) {
             break;
         }
     }
-    let mut best = best.ok_or(SpatialError::NoStart)?;
-    best.has_converged &= is_explained
+    if !ended.iter().any(is_explained) {
+        crept.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+        for fit in crept.drain(..FOLLOWED.min(crept.len())) {
+            ended.extend(Fit::from(problem, fit.unknowns, level));
+        }
+    }
+    let agreeing = agreeing(&ended, numbers);
+    let is_known = ended.iter().any(is_explained)
         || match is_stated {
-            true => 2 * agreeing > tried,
+            true => 2 * agreeing > ended.len(),
             false => agreeing > 1,
         };
+    // one that has come lower on its way says that the others are not the lowest
+    let all = ended.into_iter().chain(crept);
+    let best = all.min_by(|one, other| one.cost.total_cmp(&other.cost));
+    let mut best = best.ok_or(SpatialError::NoStart)?;
+    best.has_converged &= is_known;
     Ok((best, [tried, agreeing]))
+}
+
+/// How many came as low as the lowest.
+fn agreeing(fits: &[Fit], numbers: f64) -> usize {
+    let lowest = fits
+        .iter()
+        .map(|fit| fit.cost)
+        .fold(f64::INFINITY, f64::min);
+    let as_low = AS_LOW * (lowest + numbers);
+    let of_them = fits.iter().filter(|fit| fit.cost <= lowest + as_low);
+    of_them.count()
 }

@@ -314,6 +314,17 @@ impl Squares for Beside<'_> {
     }
 }
 
+/// XᴴX = RᵀR + QᵀQ + j (RᵀQ − QᵀR) of X = R + jQ: real products, which the library does in vectors.
+fn squared(matrix: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+    let (real, imaginary) = (matrix.map(|x| x.re), matrix.map(|x| x.im));
+    let transposed = real.transpose();
+    let even = &transposed * &real + imaginary.transpose() * &imaginary;
+    let odd = transposed * &imaginary;
+    DMatrix::from_fn(matrix.ncols(), matrix.ncols(), |i, j| {
+        Complex64::new(even[(i, j)], odd[(i, j)] - odd[(j, i)])
+    })
+}
+
 /// Jᴴ S⁻¹ J and Jᴴ S⁻¹ e of a line, whose first dyads are those of h.
 fn eliminated(
     patterns: &Patterns,
@@ -336,7 +347,7 @@ fn eliminated(
     if !is_solved {
         return Err(SpatialError::NotDetermined);
     }
-    let products = patterns.products(&own(of_h, of_h, rest, rest)) - cross.ad_mul(&cross);
+    let products = patterns.products(&own(of_h, of_h, rest, rest)) - squared(&cross);
     let slopes = patterns.slopes(&all.slopes.rows(of_h, rest).into_owned()) - cross.ad_mul(&pull);
     Ok((products, slopes))
 }

@@ -137,3 +137,11 @@ fn the_information_is_that_of_a_table_of_differences() {
         }
     }
 }
+
+#[test]
+fn the_square_of_a_matrix_is_that_of_its_adjoint_with_it() {
+    let of = |i: usize, j: usize| Complex64::new((3 * i + j) as f64, (i * j) as f64 - 2.0);
+    let matrix = DMatrix::from_fn(4, 3, of);
+    let expected = matrix.adjoint() * &matrix;
+    assert!((squared(&matrix) - &expected).norm() < 1e-12 * expected.norm());
+}

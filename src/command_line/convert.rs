@@ -11,7 +11,6 @@ use bolted_joint::convert::{Converted, Options, Target, convert, convert_assembl
 use bolted_joint::joint::JointFile;
 use bolted_joint::show::FileKind;
 use bolted_joint::study::StudyText;
-use bolted_joint_dynamics::DofKind;
 
 use super::error::CliError;
 use super::kind::expect;
@@ -109,8 +108,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         }
         _ => file,
     };
-    let mut dofs = file.joint.dofs.rows();
-    if arguments.rotation_nodes.is_some() && !dofs.any(|dof| dof.kind == DofKind::Rotation) {
+    if arguments.rotation_nodes.is_some() && !file.joint.dofs.turns() {
         let expected = "none: the joint has no rotation";
         return Err(CliError::option("--rotation-nodes", "it", expected));
     }
@@ -176,7 +174,7 @@ fn options(arguments: &ConvertArguments, name: &str) -> Result<Options, CliError
 
 /// Refuses numbers of nodes and elements for a tool that has none.
 fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Result<(), CliError> {
-    let has_nodes = !matches!(target, Target::Matlab | Target::Modelica);
+    let has_nodes = target.has_nodes();
     let of_elements = "none: MATLAB and Modelica have no nodes or elements; it is for Nastran, Abaqus, CalculiX and ANSYS";
     let of_rotations =
         "none: it is for CalculiX, where rotations are displacements of nodes of their own";

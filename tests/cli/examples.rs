@@ -1,7 +1,8 @@
 //! Studies of laps, layered beams and planned tests, from the study to what is made of its joint.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use bolted_joint::study::StudyText;
 use bolted_joint_testing::{close, has};
 
 use crate::bench::{Bench, IDENTIFY};
@@ -193,4 +194,44 @@ fn two_beams_become_one_fmu() {
     has(&written, &["2 structures with", "1 joints between them"]);
     let told = bench.done("check beams.fmu").stdout;
     has(&told, &["no problem found", "reference run: met"]);
+}
+
+/// A key of a path that `StudyText::named_files` does not know would be told of late, and without its name.
+#[test]
+fn every_file_that_an_example_names_is_told_by_its_key() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let folders = std::fs::read_dir(examples).unwrap();
+    let mut count = 0;
+    for folder in folders.map(|entry| entry.unwrap().path()) {
+        let files = std::fs::read_dir(&folder).into_iter().flatten();
+        let studies = files.map(|entry| entry.unwrap().path());
+        for path in studies.filter(|path| path.extension().is_some_and(|own| own == "toml")) {
+            let study = StudyText::read(&path).unwrap();
+            let known: Vec<PathBuf> = (study.named_files().into_iter())
+                .map(|file| file.path)
+                .collect();
+            let mut texts = Vec::new();
+            collect(&toml::from_str(study.text()).unwrap(), &mut texts);
+            let named = texts.iter().map(|text| folder.join(text));
+            for file in named.filter(|file| file.is_file()) {
+                assert!(
+                    known.contains(&file),
+                    "{}: {}",
+                    path.display(),
+                    file.display()
+                );
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 20, "{count}");
+}
+
+fn collect(value: &toml::Value, texts: &mut Vec<String>) {
+    match value {
+        toml::Value::String(text) => texts.push(text.clone()),
+        toml::Value::Array(all) => all.iter().for_each(|own| collect(own, texts)),
+        toml::Value::Table(all) => all.iter().for_each(|(_, own)| collect(own, texts)),
+        _ => {}
+    }
 }

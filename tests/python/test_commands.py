@@ -177,16 +177,8 @@ def test_processes_of_all_kinds_compute_after_their_parent(demo, method):
     assert told is True
 
 
-@pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal where there are signals")
-def test_control_c_ends_a_long_call_at_once(demo, tmp_path):
-    script = (
-        "import bolted_joint, sys\n"
-        "print('begun', flush=True)\n"
-        "try:\n"
-        f"    bolted_joint.identify({str(demo / 'study.toml')!r}, bootstrap=1_000_000)\n"
-        "except KeyboardInterrupt:\n"
-        "    print('interrupted', flush=True)\n"
-    )
+def interrupted(script, timeout):
+    """What a script prints that says that it has begun, and then gets Ctrl-C."""
     # what runs in the background of a shell ignores the signal, and its children do
     child = subprocess.Popen(
         [sys.executable, "-c", script],
@@ -198,10 +190,22 @@ def test_control_c_ends_a_long_call_at_once(demo, tmp_path):
         assert child.stdout.readline() == "begun\n"
         time.sleep(1.0)
         child.send_signal(2)
-        printed, _ = child.communicate(timeout=20)
+        return child.communicate(timeout=timeout)[0]
     finally:
         child.kill()
-    assert printed == "interrupted\n"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal where there are signals")
+def test_control_c_ends_a_long_call_at_once(demo):
+    script = (
+        "import bolted_joint\n"
+        "print('begun', flush=True)\n"
+        "try:\n"
+        f"    bolted_joint.identify({str(demo / 'study.toml')!r}, bootstrap=1_000_000)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('interrupted', flush=True)\n"
+    )
+    assert interrupted(script, 20) == "interrupted\n"
 
 
 @pytest.mark.skipif(not pathlib.Path("/proc/self/task").exists(), reason="threads are counted in /proc")
@@ -219,20 +223,7 @@ def test_work_that_is_given_up_ends(demo):
         "        time.sleep(0.01)\n"
         "    print(during > before, threads() - before, flush=True)\n"
     )
-    child = subprocess.Popen(
-        [sys.executable, "-c", script],
-        stdout=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )
-    try:
-        assert child.stdout.readline() == "begun\n"
-        time.sleep(1.0)
-        child.send_signal(2)
-        printed, _ = child.communicate(timeout=40)
-    finally:
-        child.kill()
-    assert printed == "True 0\n"
+    assert interrupted(script, 40) == "True 0\n"
 
 
 @pytest.mark.skipif(not pathlib.Path("/proc/self/statm").exists(), reason="memory is read from /proc")

@@ -61,6 +61,17 @@ def test_two_unknown_joints_are_told_apart(run, tmp_path):
         assert apart(own["stiffness"], expected[0]) < 1e-7 and apart(own["damping"], expected[1]) < 1e-7
 
 
+def test_a_function_that_is_zero_is_left_out_of_a_chain(run, tmp_path):
+    Chain([FIRST, SECOND]).write(tmp_path, FREQUENCIES, EVERYWHERE, [SOUGHT, SOUGHT])
+    assembly = dict(np.load(tmp_path / "assembly.npz"))
+    assembly["frf"][0, 0] = 0
+    np.savez(tmp_path / "assembly.npz", **assembly)
+    done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json")
+    assert "assembly: 1 of 36 functions are zero at every line and are left out" in done.stderr, done.stderr
+    for joint, expected in zip(json.loads(done.stdout)["joints"], (FIRST, SECOND)):
+        assert apart(joint["joint_file"]["joint"]["stiffness"], expected[0]) < 1e-7
+
+
 def test_the_tool_answers_as_the_whole_beam_does(run, tmp_path):
     chain = Chain([FIRST, SECOND])
     joint_file(tmp_path / "one.joint.json", *FIRST, ["y", "theta"])

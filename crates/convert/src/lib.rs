@@ -18,7 +18,6 @@ mod nastran;
 mod numbers;
 mod reserved;
 
-use bolted_joint_dynamics::DofKind;
 use bolted_joint_joint::JointFile;
 
 pub use ansys::matrix27_pair;
@@ -56,6 +55,12 @@ impl Target {
             Self::Matlab => "MATLAB",
             Self::Modelica => "Modelica",
         }
+    }
+
+    /// Whether it has nodes and elements with numbers.
+    #[must_use]
+    pub fn has_nodes(self) -> bool {
+        !matches!(self, Self::Matlab | Self::Modelica)
     }
 }
 
@@ -95,12 +100,7 @@ pub fn convert(
     if file.joint.over_preload.is_some() {
         return Err(ConvertError::OverPreload);
     }
-    let mut dofs = file.joint.dofs.rows();
-    numbers::check(
-        target,
-        options,
-        dofs.any(|dof| dof.kind == DofKind::Rotation),
-    )?;
+    numbers::check(target, options, file.joint.dofs.turns())?;
     reserved::check(target, &options.identifier)?;
     let head = Head::of(file, target, options);
     match target {

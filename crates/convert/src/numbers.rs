@@ -10,9 +10,8 @@ const AUXILIARY: u32 = 12;
 
 /// Refuses numbers for a joint that `turns` or does not.
 pub(crate) fn check(target: Target, options: &Options, turns: bool) -> Result<(), ConvertError> {
-    let has_nodes = !matches!(target, Target::Matlab | Target::Modelica);
     let [a, b] = options.nodes;
-    if has_nodes && a == b {
+    if target.has_nodes() && a == b {
         return refuse("--nodes", format!("{a} twice"), "two nodes");
     }
     if target == Target::Nastran {

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use bolted_joint_dynamics::{DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, SPACE, law::UnitRule};
+use bolted_joint_dynamics::{
+    DOF_COUNT, DOF_SETS, DOFS, Dof, DofCount, DofKind, SPACE, law::UnitRule,
+};
 use serde::{
     Deserialize, Deserializer, Serialize,
     de::{EnumAccess, Error as _, VariantAccess as _, Visitor},
@@ -66,6 +68,12 @@ impl DofSet {
     #[must_use]
     pub fn rows(self) -> impl ExactSizeIterator<Item = &'static Dof> + Clone {
         self.0.iter().map(|&row| &DOFS[row])
+    }
+
+    /// Whether any of them is a rotation.
+    #[must_use]
+    pub fn turns(self) -> bool {
+        self.rows().any(|dof| dof.kind == DofKind::Rotation)
     }
 
     /// The DOF of a row of the matrices; the last one beyond them.

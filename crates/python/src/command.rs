@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 
 /// How often Ctrl-C is looked for while a command runs.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+
 /// Executable, arguments before a command's name, folder of FMU libraries.
 type Started = (PathBuf, Vec<String>, Option<PathBuf>);
 

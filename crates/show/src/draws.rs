@@ -24,8 +24,7 @@ pub(crate) fn shown(path: &Path) -> Result<Shown, ShowError> {
     shown.fact("made by", format!("{} {}", origin.tool, origin.version));
     let inputs: Vec<&str> = origin.inputs.iter().map(|own| own.file.as_str()).collect();
     shown.fact("from", some(&inputs, LISTED));
-    let listed = file.results.iter().enumerate().take(LISTED);
-    let lines = listed.map(|(place, name)| {
+    let lines = file.results.iter().enumerate().map(|(place, name)| {
         let draws = file.draws.iter().filter_map(Draw::values);
         let values = draws.filter_map(|values| values.get(place).copied());
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), own| {
@@ -36,9 +35,7 @@ pub(crate) fn shown(path: &Path) -> Result<Shown, ShowError> {
             false => name.clone(),
         }
     });
-    let more = file.results.len().saturating_sub(LISTED);
-    let more = (more > 0).then(|| format!("and {more} more"));
-    shown.facts_of("results", lines.chain(more));
+    shown.facts_of_some("results", lines, LISTED);
     shown.detail("first", file.numbers().start);
     shown.detail("end", file.numbers().end);
     shown.detail("refused", file.refused());

@@ -62,6 +62,18 @@ impl Shown {
         }
     }
 
+    /// At most so many of the lines, and how many more there are.
+    pub(crate) fn facts_of_some(
+        &mut self,
+        label: &'static str,
+        lines: impl ExactSizeIterator<Item = String>,
+        most: usize,
+    ) {
+        let more = lines.len().saturating_sub(most);
+        let more = (more > 0).then(|| format!("and {more} more"));
+        self.facts_of(label, lines.take(most).chain(more));
+    }
+
     /// A number, or more, for machines.
     pub(crate) fn detail(&mut self, key: &str, value: impl Into<Value>) {
         self.details.insert(key.to_owned(), value.into());

@@ -18,10 +18,8 @@ pub(crate) fn shown(path: &Path) -> Result<Shown, ShowError> {
     if let Some(tool) = &found.tool {
         shown.fact("tool", tool);
     }
-    let more = found.components.len().saturating_sub(LISTED);
-    let more = (more > 0).then(|| format!("and {more} more"));
-    let listed = found.components.iter().take(LISTED).cloned();
-    shown.facts_of("components", listed.chain(more));
+    let components = found.components.iter().cloned();
+    shown.facts_of_some("components", components, LISTED);
     shown.fact("connections", found.connections.to_string());
     for (label, names) in [
         ("inputs", &found.inputs),

@@ -135,9 +135,7 @@ pub(crate) fn shown(path: &Path, kind: TableKind) -> Result<Shown, TextFileError
         Some([low, high]) => format!("{name} from {} to {}", short(*low, 5), short(*high, 5)),
         None => name.clone(),
     });
-    let more = names.len().saturating_sub(LISTED);
-    let more = (more > 0).then(|| format!("and {more} more"));
-    shown.facts_of("columns", told.take(LISTED).chain(more));
+    shown.facts_of_some("columns", told, LISTED);
     if let Some(study) = kind.taken_by() {
         shown.fact("taken by", study);
     }

@@ -4,28 +4,32 @@
 // the one place where they may be called
 #![allow(clippy::disallowed_methods)]
 
-use nalgebra::{DMatrix, DVector, Dyn, SVD};
+use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
 use num_complex::Complex64;
 
 /// When a value has come to rest, as in `nalgebra`.
 const AT_REST: f64 = 5.0 * f64::EPSILON;
-/// Steps for each singular value, of which a few are usual.
+/// Steps for each number of the matrix, where a few for each singular value are usual.
 const STEPS: usize = 1000;
 
 /// Singular values with their vectors, the largest first. `None` where a number is not finite, or the matrix is empty.
 #[must_use]
 pub fn real(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
-    let is_sound = !matrix.is_empty() && matrix.iter().all(|number| number.is_finite());
-    let steps = STEPS * matrix.len();
-    is_sound.then(|| matrix.try_svd(true, true, AT_REST, steps))?
+    decomposed(matrix)
 }
 
 /// As [`real`], of a complex matrix.
 #[must_use]
 pub fn complex(matrix: DMatrix<Complex64>) -> Option<SVD<Complex64, Dyn, Dyn>> {
-    let is_sound = !matrix.is_empty() && matrix.iter().all(|number| number.is_finite());
+    decomposed(matrix)
+}
+
+fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -> Option<SVD<T, Dyn, Dyn>> {
+    if matrix.is_empty() || !matrix.iter().all(ComplexField::is_finite) {
+        return None;
+    }
     let steps = STEPS * matrix.len();
-    is_sound.then(|| matrix.try_svd(true, true, AT_REST, steps))?
+    matrix.try_svd(true, true, AT_REST, steps)
 }
 
 /// The pseudo-inverse in which singular values up to `least` are none. `None` where a number is not finite.

@@ -11,16 +11,20 @@ impl SpatialStudy {
     #[must_use]
     pub fn advice(&self) -> Vec<String> {
         let mut all = advice(&self.problem.sides);
-        let (left_out, used) = (self.zero_functions, self.functions());
-        if left_out > 0 {
-            all.push(format!(
-                "assembly: {left_out} of {} functions are zero at every line and are left out: computed ones of structures that are \
-                 symmetric, or channels that are not connected",
-                used + left_out
-            ));
-        }
+        all.extend(of_zero_functions(self.zero_functions, self.functions()));
         all
     }
+}
+
+/// Of functions that are left out since they are zero, beside those that are used.
+pub(crate) fn of_zero_functions(left_out: usize, used: usize) -> Option<String> {
+    (left_out > 0).then(|| {
+        format!(
+            "assembly: {left_out} of {} functions are zero at every line and are left out: computed ones of structures that are \
+             symmetric, or channels that are not connected",
+            used + left_out
+        )
+    })
 }
 
 /// What the places of sensors and impacts are warned of: too few of them, or a motion that they hardly see.

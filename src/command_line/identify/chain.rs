@@ -10,7 +10,7 @@ use bolted_joint::study::StudyText;
 
 use super::super::bolt_files::named;
 use super::super::error::CliError;
-use super::super::output::{Outputs, check_output, print};
+use super::super::output::{Outputs, check_output, print, warn};
 use super::super::table::{Table, number};
 use super::IdentifyArguments;
 
@@ -18,6 +18,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let study = ChainStudy::of_measured(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
     let found = study.identify()?;
+    warn(&found.warnings);
     let files: Vec<(PathBuf, _)> = found
         .joints
         .iter()

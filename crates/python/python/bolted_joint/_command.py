@@ -84,7 +84,7 @@ def run(
     BoltedJointError
         With the command line's message.
     KeyboardInterrupt
-        At Ctrl-C. The work then ends by itself, in less than a second.
+        At Ctrl-C. Work that takes long then ends by itself.
     """
     command, *rest = arguments
     # before what stands at the end, which may be a command of its own

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 
 use super::apart::{Apart, apart};
 use super::study::ChainStudy;
+use crate::advice::of_zero_functions;
 use crate::error::SpatialError;
 use crate::fit::covariance;
 use crate::identification::Unknown;
@@ -67,6 +68,8 @@ pub struct ChainIdentification {
     pub reduced_chi_squared: Option<f64>,
     /// Starts of the search, and how many came to the same minimum.
     pub starts: [usize; 2],
+    /// What else should be known.
+    pub warnings: Vec<String>,
     /// Why the result is not to be relied on.
     pub reasons_against: Vec<String>,
 }
@@ -77,7 +80,7 @@ impl ChainStudy {
     /// # Errors
     /// [`SpatialError`] where the functions do not determine them, or do not tell them apart.
     pub fn identify(&self) -> Result<ChainIdentification, SpatialError> {
-        let problem = self.measured()?;
+        let (problem, zero_functions) = self.measured()?;
         let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
         let count = problem.joint_count();
         if 2 * functions * lines <= count {
@@ -129,14 +132,17 @@ impl ChainStudy {
             lines,
             reduced_chi_squared,
             starts,
+            warnings: of_zero_functions(zero_functions, functions)
+                .into_iter()
+                .collect(),
             reasons_against: Vec::new(),
         };
         found.reasons_against = found.reasons(best.has_converged);
         Ok(found)
     }
 
-    /// The problem with what was measured.
-    fn measured(&self) -> Result<Problem, SpatialError> {
+    /// The problem with what was measured, and how many functions are left out since they are zero.
+    fn measured(&self) -> Result<(Problem, usize), SpatialError> {
         let sought = self.sought();
         if sought == 0 {
             return Err(SpatialError::AllKnown);
@@ -146,8 +152,9 @@ impl ChainStudy {
         }
         let mut problem = self.problem.clone();
         problem.tolerances = None;
-        problem.observed = self.observed()?;
-        Ok(problem)
+        let (observed, zero_functions) = self.observed()?;
+        problem.observed = observed;
+        Ok((problem, zero_functions))
     }
 }
 

@@ -212,14 +212,13 @@ impl ChainStudy {
         })
     }
 
-    /// What was measured of the assembly.
-    pub(crate) fn observed(&self) -> Result<Vec<Observed>, StudyError> {
+    /// What was measured of the assembly, and how many functions are left out since they are zero.
+    pub(crate) fn observed(&self) -> Result<(Vec<Observed>, usize), StudyError> {
         let reader = Reader {
             study: &self.text,
             motions: self.motions,
         };
-        let (observed, _) = reader.observed(&self.problem.sides, self.assembly.as_ref())?;
-        Ok(observed)
+        reader.observed(&self.problem.sides, self.assembly.as_ref())
     }
 
     /// How many joints are sought.

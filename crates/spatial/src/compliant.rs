@@ -48,7 +48,7 @@ impl Loads {
                 };
                 let groups: Vec<Group> = (0..flat.nrows() / MOTIONS).map(group).collect();
                 let errors = &by_motions * &own.motions;
-                let products = patterns.products(&information(&grid, &groups));
+                let products = patterns.products(information(&grid, &groups).as_view());
                 let slopes = patterns.slopes(&descent(&grid, &groups, &errors));
                 normal.add_line(omega, &patterns, &products, &slopes);
             }

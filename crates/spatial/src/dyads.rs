@@ -4,8 +4,6 @@
 //!
 //! Groups of unknowns θ_pq act as f_oi = Σ x_op θ_pq y_qi, with x and y of their own.
 
-use std::ops::Range;
-
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -34,124 +32,103 @@ impl Group {
     }
 }
 
+/// Groups, and where the unknowns of each begin among all.
+pub(crate) type Placed<'g> = [(usize, &'g Group)];
+
 /// Σ w conj(∂f/∂θ) ∂f/∂θ′ over all functions, for all pairs of unknowns.
-///
-/// Both sums are products of real matrices: over a row's columns H = Σ_i w conj(y_q) y_u, and over the rows
-/// Σ_o conj(x_p) x_r H, with real and imaginary parts one below the other.
 pub(crate) fn information(grid: &Grid, groups: &[Group]) -> DMatrix<Complex64> {
-    let of_columns = by_columns(grid, groups);
-    let firsts = |of: &dyn Fn(&Group) -> usize| -> Vec<usize> {
-        let starts = groups.iter().scan(0, |next, group| {
-            let first = *next;
-            *next += of(group);
-            Some(first)
-        });
-        starts.collect()
-    };
-    let places = firsts(&|group| group.right.nrows());
-    let unknowns = firsts(&Group::count);
-    let count = groups.iter().map(Group::count).sum();
+    let (count, placed) = side_by_side(groups);
     let mut all = DMatrix::zeros(count, count);
-    for (s, one) in groups.iter().enumerate() {
-        for (t, other) in groups.iter().enumerate().skip(s) {
-            let (height, width) = (one.right.nrows(), other.right.nrows());
-            let sums = over_rows(
-                &by_rows([one, other], s == t),
-                &of_columns,
-                [places[s]..places[s] + height, places[t]..places[t] + width],
-            );
-            let half = sums.nrows() / 2;
-            let pairs = pairs([one, other], s == t);
-            for (pair, [p, r]) in pairs.enumerate() {
-                for q in 0..height {
+    add_information(grid, &placed, &mut all);
+    all
+}
+
+/// How many unknowns there are, and the groups one after the other.
+fn side_by_side(groups: &[Group]) -> (usize, Vec<(usize, &Group)>) {
+    let mut next = 0;
+    let placed = groups.iter().map(|group| {
+        let place = next;
+        next += group.count();
+        (place, group)
+    });
+    let placed = placed.collect();
+    (next, placed)
+}
+
+/// The same, added to `all`.
+///
+/// Both sums are products of real matrices: over the columns H = Σ_i w conj(y_q) y_u for all rows at once, and over the rows
+/// Σ_o conj(x_p) x_r H.
+pub(crate) fn add_information(grid: &Grid, groups: &Placed<'_>, all: &mut DMatrix<Complex64>) {
+    let weights = grid.weights.transpose();
+    for (s, &(first, one)) in groups.iter().enumerate() {
+        for &(second, other) in &groups[s..] {
+            let is_one = first == second;
+            let [of_columns, turned] = over_columns(&one.right, &other.right, &weights);
+            let pairs = pairs([one, other], is_one);
+            let [of_rows, sideways] = by_rows([one, other], &pairs);
+            let mut even = &of_columns * &of_rows;
+            even.gemm(-1.0, &turned, &sideways, 1.0);
+            let mut odd = &of_columns * &sideways;
+            odd.gemm(1.0, &turned, &of_rows, 1.0);
+            let width = other.right.nrows();
+            for (pair, &[p, r]) in pairs.iter().enumerate() {
+                for q in 0..one.right.nrows() {
+                    let i = first + p * one.right.nrows() + q;
                     for u in 0..width {
-                        let place = q * width + u;
-                        let value = Complex64::new(sums[(pair, place)], sums[(half + pair, place)]);
-                        let i = unknowns[s] + p * height + q;
-                        let j = unknowns[t] + r * width + u;
-                        all[(i, j)] = value;
-                        all[(j, i)] = value.conj();
+                        let j = second + r * width + u;
+                        let place = (q * width + u, pair);
+                        let value = Complex64::new(even[place], odd[place]);
+                        all[(i, j)] += value;
+                        // what is mirrored in its own block is there already
+                        if !is_one || p != r {
+                            all[(j, i)] += value.conj();
+                        }
                     }
                 }
             }
         }
     }
-    all
 }
 
-/// H of each row: real parts, and beside them imaginary ones, right × 2·right of all groups.
-fn by_columns(grid: &Grid, groups: &[Group]) -> Vec<DMatrix<f64>> {
-    let (rows, columns) = grid.weights.shape();
-    let right: usize = groups.iter().map(|group| group.right.nrows()).sum();
-    // (Re y, Im y), and what it is multiplied by for real and imaginary parts
-    let mut own = DMatrix::zeros(right, 2 * columns);
-    let mut others = DMatrix::zeros(2 * columns, 2 * right);
-    let mut first = 0;
-    for group in groups {
-        for (q, row) in group.right.row_iter().enumerate() {
-            let q = first + q;
-            for (i, y) in row.iter().enumerate() {
-                (own[(q, i)], own[(q, columns + i)]) = (y.re, y.im);
-                (others[(i, q)], others[(columns + i, q)]) = (y.re, y.im);
-                (others[(i, right + q)], others[(columns + i, right + q)]) = (y.im, -y.re);
-            }
-        }
-        first += group.right.nrows();
-    }
-    let mut weighted = own.clone();
-    let of_row = |o: usize| {
-        for i in 0..columns {
-            let weight = grid.weights[(o, i)];
-            for column in [i, columns + i] {
-                weighted.set_column(column, &(own.column(column) * weight));
-            }
-        }
-        &weighted * &others
-    };
-    (0..rows).map(of_row).collect()
+/// Re H and Im H, (q, u) × rows.
+fn over_columns(
+    one: &DMatrix<Complex64>,
+    other: &DMatrix<Complex64>,
+    weights: &DMatrix<f64>,
+) -> [DMatrix<f64>; 2] {
+    let width = other.nrows();
+    let products = parts(one.nrows() * width, one.ncols(), |place, column| {
+        one[(place / width, column)].conj() * other[(place % width, column)]
+    });
+    products.map(|own| own * weights)
 }
 
 /// The pairs (p, r) of two groups; of a group with itself the other half follows.
-fn pairs([one, other]: [&Group; 2], is_one: bool) -> impl Iterator<Item = [usize; 2]> {
+fn pairs([one, other]: [&Group; 2], is_one: bool) -> Vec<[usize; 2]> {
     let (height, width) = (one.left.ncols(), other.left.ncols());
     let from = move |p: usize| if is_one { p } else { 0 };
-    (0..height).flat_map(move |p| (from(p)..width).map(move |r| [p, r]))
+    (0..height)
+        .flat_map(move |p| (from(p)..width).map(move |r| [p, r]))
+        .collect()
 }
 
-/// conj(x_p) x_r of all rows, 2·pairs × 2·rows: what makes Re and, below, Im of a product from the real and imaginary parts of the
-/// other factor.
-fn by_rows([one, other]: [&Group; 2], is_one: bool) -> DMatrix<f64> {
-    let rows = one.left.nrows();
-    let count = pairs([one, other], is_one).count();
-    let mut factors = DMatrix::zeros(2 * count, 2 * rows);
-    for (pair, [p, r]) in pairs([one, other], is_one).enumerate() {
-        for o in 0..rows {
-            let factor = one.left[(o, p)].conj() * other.left[(o, r)];
-            factors[(pair, o)] = factor.re;
-            factors[(pair, rows + o)] = -factor.im;
-            factors[(count + pair, o)] = factor.im;
-            factors[(count + pair, rows + o)] = factor.re;
-        }
-    }
-    factors
+/// Re and Im of conj(x_p) x_r of all rows, rows × pairs.
+fn by_rows([one, other]: [&Group; 2], pairs: &[[usize; 2]]) -> [DMatrix<f64>; 2] {
+    parts(one.left.nrows(), pairs.len(), |row, pair| {
+        let [p, r] = pairs[pair];
+        one.left[(row, p)].conj() * other.left[(row, r)]
+    })
 }
 
-/// Σ_o factor · H for the places (q, u) of H: 2·pairs × places, real parts and below imaginary ones.
-fn over_rows(
-    factors: &DMatrix<f64>,
-    of_columns: &[DMatrix<f64>],
-    [rows, columns]: [Range<usize>; 2],
-) -> DMatrix<f64> {
-    let (count, width) = (of_columns.len(), columns.len());
-    let mut parts = DMatrix::zeros(2 * count, rows.len() * width);
-    for (o, own) in of_columns.iter().enumerate() {
-        let right = own.nrows();
-        for (place, mut column) in parts.column_iter_mut().enumerate() {
-            let (q, u) = (rows.start + place / width, columns.start + place % width);
-            (column[o], column[count + o]) = (own[(q, u)], own[(q, right + u)]);
-        }
-    }
-    factors * parts
+/// Real and imaginary parts of a matrix.
+fn parts(
+    rows: usize,
+    columns: usize,
+    value: impl Fn(usize, usize) -> Complex64,
+) -> [DMatrix<f64>; 2] {
+    let whole = DMatrix::from_fn(rows, columns, value);
+    [whole.map(|value| value.re), whole.map(|value| value.im)]
 }
 
 /// Σ w conj(∂f/∂θ) e over all functions, for residuals e (rows × columns).
@@ -160,14 +137,27 @@ pub(crate) fn descent(
     groups: &[Group],
     errors: &DMatrix<Complex64>,
 ) -> DVector<Complex64> {
+    let (count, placed) = side_by_side(groups);
+    let mut all = DVector::zeros(count);
+    add_descent(grid, &placed, errors, &mut all);
+    all
+}
+
+/// The same, added to `all`.
+pub(crate) fn add_descent(
+    grid: &Grid,
+    groups: &Placed<'_>,
+    errors: &DMatrix<Complex64>,
+    all: &mut DVector<Complex64>,
+) {
     let weighted = errors.zip_map(&grid.weights, |error, weight| weight * error);
-    let of = |group: &Group| {
-        // x̄ᵀ (w e) ȳᵀ
+    for &(first, group) in groups {
+        // x̄ᵀ (w e) ȳᵀ, row by row
         let sums = group.left.ad_mul(&weighted) * group.right.adjoint();
-        sums.transpose().as_slice().to_vec()
-    };
-    let all: Vec<Complex64> = groups.iter().flat_map(of).collect();
-    DVector::from_vec(all)
+        for (own, sum) in all.iter_mut().skip(first).zip(sums.transpose().iter()) {
+            *own += sum;
+        }
+    }
 }
 
 /// Σ w |e|².

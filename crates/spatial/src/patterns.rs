@@ -4,7 +4,7 @@
 //! transformation of its interface: both are weighted sums of dyads, with weights that no line changes. So the lines are summed
 //! first, and the weights applied once.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixView, DVector, DVectorViewMut};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
@@ -264,37 +264,54 @@ impl Patterns {
     }
 
     /// Eᵀ M E of sums over the dyads.
-    pub(crate) fn products(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        let half = self.columns(sums);
-        let mut products = DMatrix::zeros(half.ncols(), half.ncols());
-        for (l, column) in half.column_iter().enumerate() {
-            for (k, pattern) in self.each().enumerate() {
-                products[(k, l)] = pattern.of_sums(column.as_slice());
+    pub(crate) fn products(&self, sums: DMatrixView<'_, Complex64>) -> DMatrix<Complex64> {
+        let count = self.count();
+        let mut products = DMatrix::zeros(count, count);
+        let mut column = DVector::zeros(sums.nrows());
+        for (mut own, pattern) in products.column_iter_mut().zip(self.each()) {
+            column.fill(Complex64::ZERO);
+            pattern.add_column(sums, column.as_view_mut());
+            for (product, other) in own.iter_mut().zip(self.each()) {
+                *product = other.of_sums(column.as_slice());
             }
         }
         products
     }
 
     /// M E.
-    pub(crate) fn columns(&self, sums: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        let count = self.of_joints.len() + self.of_set_up.len();
-        let mut columns = DMatrix::zeros(sums.nrows(), count);
-        for (mut column, pattern) in columns.column_iter_mut().zip(self.each()) {
-            for &(place, factor) in &pattern.0 {
-                column.axpy(Complex64::from(factor), &sums.column(place), Complex64::ONE);
-            }
+    pub(crate) fn columns(&self, sums: DMatrixView<'_, Complex64>) -> DMatrix<Complex64> {
+        let mut columns = DMatrix::zeros(sums.nrows(), self.count());
+        for (column, pattern) in columns.column_iter_mut().zip(self.each()) {
+            pattern.add_column(sums, column);
         }
         columns
+    }
+
+    fn count(&self) -> usize {
+        self.of_joints.len() + self.of_set_up.len()
     }
 
     /// Eᵀ v.
     pub(crate) fn slopes(&self, sums: &DVector<Complex64>) -> DVector<Complex64> {
         let own = self.each().map(|pattern| pattern.of_sums(sums.as_slice()));
-        DVector::from_iterator(self.of_joints.len() + self.of_set_up.len(), own)
+        DVector::from_iterator(self.count(), own)
     }
 }
 
 impl Pattern {
+    /// Its column of M E.
+    fn add_column(
+        &self,
+        sums: DMatrixView<'_, Complex64>,
+        mut column: DVectorViewMut<'_, Complex64>,
+    ) {
+        for &(place, factor) in &self.0 {
+            for (own, sum) in column.iter_mut().zip(sums.column(place).iter()) {
+                *own += factor * sum;
+            }
+        }
+    }
+
     fn of_sums(&self, sums: &[Complex64]) -> Complex64 {
         let terms = self.0.iter();
         terms.map(|&(place, factor)| factor * sums[place]).sum()

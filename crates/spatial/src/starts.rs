@@ -291,7 +291,9 @@ impl Loads {
                 };
                 let groups: Vec<Group> = (0..count / MOTIONS).map(group).collect();
                 let errors = -(&by_balance * &own.loads);
-                let products = self.patterns.products(&information(&grid, &groups));
+                let products = self
+                    .patterns
+                    .products(information(&grid, &groups).as_view());
                 let slopes = self.patterns.slopes(&descent(&grid, &groups, &errors));
                 normal.add_line(omega, &self.patterns, &products, &slopes);
             }

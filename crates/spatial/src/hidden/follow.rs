@@ -68,7 +68,7 @@ impl Beside<'_> {
             let (root, step, gain) = match before {
                 Some(own) => own,
                 None => {
-                    let root = damped(Gathered::of(self.of_h(), compared), damping)?;
+                    let root = damped(Gathered::of(self.of_h(), &compared), damping)?;
                     let step = root.solve(&slopes);
                     let gain = slopes.dotc(&step).re;
                     (root, step, gain)

@@ -201,14 +201,15 @@ impl<'p> Beside<'p> {
         [count(0), count(1)]
     }
 
-    /// What it says of h, then of the joints, then of the rows of the set-up of each side.
+    /// What a line says of h, then of the joints, then of the rows of the set-up of each side.
     fn of_everything(
         &self,
         model: &Model<'_>,
         line: usize,
         hidden: &Hidden,
         computed: &Computed,
-    ) -> Gathered {
+        into: &mut Gathered,
+    ) {
         let [a, b] = self.hidden_counts();
         let places = [0, a];
         let mut next = a + b;
@@ -246,7 +247,7 @@ impl<'p> Beside<'p> {
                 groups,
             },
         );
-        Gathered::of(next, alone)
+        into.gather(next, &alone);
     }
 
     fn has_set_up(&self, side: usize) -> bool {
@@ -271,9 +272,10 @@ impl<'p> Beside<'p> {
         let count = self.problem.count();
         let parts = over_few_lines(hidden.len(), |lines| {
             let mut normal = Normal::zeros(count);
+            let mut all = Gathered::default();
             for line in lines {
                 let computed = model.line(line, &hidden[line])?;
-                let all = self.of_everything(&model, line, &hidden[line], &computed);
+                self.of_everything(&model, line, &hidden[line], &computed, &mut all);
                 normal.cost += 2.0 * all.squares;
                 let (products, slopes) = eliminated(&patterns, of_h, &all)?;
                 normal.add_line(self.problem.omega(line), &patterns, &products, &slopes);
@@ -314,15 +316,18 @@ impl Squares for Beside<'_> {
     }
 }
 
-/// XᴴX = RᵀR + QᵀQ + j (RᵀQ − QᵀR) of X = R + jQ: real products, which the library does in vectors.
-fn squared(matrix: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+/// Less XᴴX = RᵀR + QᵀQ + j (RᵀQ − QᵀR) of X = R + jQ: real products, which the library does in vectors.
+fn subtract_square(all: &mut DMatrix<Complex64>, matrix: &DMatrix<Complex64>) {
     let (real, imaginary) = (matrix.map(|x| x.re), matrix.map(|x| x.im));
     let transposed = real.transpose();
-    let even = &transposed * &real + imaginary.transpose() * &imaginary;
+    let mut even = &transposed * &real;
+    even.gemm(1.0, &imaginary.transpose(), &imaginary, 1.0);
     let odd = transposed * &imaginary;
-    DMatrix::from_fn(matrix.ncols(), matrix.ncols(), |i, j| {
-        Complex64::new(even[(i, j)], odd[(i, j)] - odd[(j, i)])
-    })
+    for j in 0..all.ncols() {
+        for i in 0..all.nrows() {
+            all[(i, j)] -= Complex64::new(even[(i, j)], odd[(i, j)] - odd[(j, i)]);
+        }
+    }
 }
 
 /// Jᴴ S⁻¹ J and Jᴴ S⁻¹ e of a line, whose first dyads are those of h.
@@ -332,14 +337,9 @@ fn eliminated(
     all: &Gathered,
 ) -> Result<(DMatrix<Complex64>, DVector<Complex64>), SpatialError> {
     let rest = all.slopes.len() - of_h;
-    let own = |row: usize, column: usize, height: usize, width: usize| {
-        all.products
-            .view((row, column), (height, width))
-            .into_owned()
-    };
-    let root: Cholesky<Complex64, Dyn> =
-        Cholesky::new(own(0, 0, of_h, of_h)).ok_or(SpatialError::NotDetermined)?;
-    let mut cross = patterns.columns(&own(0, of_h, of_h, rest));
+    let own = all.products.view((0, 0), (of_h, of_h)).into_owned();
+    let root: Cholesky<Complex64, Dyn> = Cholesky::new(own).ok_or(SpatialError::NotDetermined)?;
+    let mut cross = patterns.columns(all.products.view((0, of_h), (of_h, rest)).as_view());
     let mut pull = all.slopes.rows(0, of_h).into_owned();
     let lower = root.l_dirty();
     let is_solved =
@@ -347,7 +347,9 @@ fn eliminated(
     if !is_solved {
         return Err(SpatialError::NotDetermined);
     }
-    let products = patterns.products(&own(of_h, of_h, rest, rest)) - squared(&cross);
+    let of_rest = all.products.view((of_h, of_h), (rest, rest));
+    let mut products = patterns.products(of_rest.as_view());
+    subtract_square(&mut products, &cross);
     let slopes = patterns.slopes(&all.slopes.rows(of_h, rest).into_owned()) - cross.ad_mul(&pull);
     Ok((products, slopes))
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::dyads::{Grid, Group, descent, information, squares};
+use crate::dyads::{Grid, Group, add_descent, add_information, squares};
 
 /// Functions that are compared, with the dyads of what changes them.
 pub(super) struct Compared<'g> {
@@ -15,60 +15,47 @@ pub(super) struct Compared<'g> {
 }
 
 /// Σ w conj(∂f/∂θ) ∂f/∂θ′, Σ w conj(∂f/∂θ) e and Σ w |e|² over all functions of a line.
+#[derive(Default)]
 pub(super) struct Gathered {
     pub(super) products: DMatrix<Complex64>,
     pub(super) slopes: DVector<Complex64>,
     pub(super) squares: f64,
 }
 
+impl Compared<'_> {
+    fn placed(&self) -> Vec<(usize, &Group)> {
+        let groups = self.groups.iter();
+        groups.map(|(place, group)| (*place, group)).collect()
+    }
+}
+
 /// Σ w conj(∂f/∂θ) e alone.
 pub(super) fn slopes(count: usize, all: &[Compared<'_>]) -> DVector<Complex64> {
     let mut sum = DVector::zeros(count);
-    for Compared {
-        grid,
-        errors,
-        groups,
-    } in all
-    {
-        for (place, group) in groups {
-            let mut own = sum.rows_mut(*place, group.count());
-            own += descent(grid, std::slice::from_ref(group), errors);
-        }
+    for own in all {
+        add_descent(own.grid, &own.placed(), &own.errors, &mut sum);
     }
     sum
 }
 
 impl Gathered {
-    pub(super) fn of(count: usize, all: Vec<Compared<'_>>) -> Self {
-        let mut sum = Self {
-            products: DMatrix::zeros(count, count),
-            slopes: DVector::zeros(count),
-            squares: 0.0,
-        };
-        for Compared {
-            grid,
-            errors,
-            groups,
-        } in all
-        {
-            let (places, groups): (Vec<usize>, Vec<Group>) = groups.into_iter().unzip();
-            let counts: Vec<usize> = groups.iter().map(Group::count).collect();
-            let products = information(grid, &groups);
-            let slopes = descent(grid, &groups, &errors);
-            sum.squares += squares(grid, &errors);
-            let mut row = 0;
-            for (&place, &height) in places.iter().zip(&counts) {
-                let mut own = sum.slopes.rows_mut(place, height);
-                own += slopes.rows(row, height);
-                let mut column = 0;
-                for (&other, &width) in places.iter().zip(&counts) {
-                    let mut own = sum.products.view_mut((place, other), (height, width));
-                    own += products.view((row, column), (height, width));
-                    column += width;
-                }
-                row += height;
-            }
-        }
+    pub(super) fn of(count: usize, all: &[Compared<'_>]) -> Self {
+        let mut sum = Self::default();
+        sum.gather(count, all);
         sum
+    }
+
+    /// Those of another line in the place of what it holds: memory of this size takes long to get for every line.
+    pub(super) fn gather(&mut self, count: usize, all: &[Compared<'_>]) {
+        self.products.resize_mut(count, count, Complex64::default());
+        self.products.fill(Complex64::default());
+        self.slopes = DVector::zeros(count);
+        self.squares = 0.0;
+        for own in all {
+            let placed = own.placed();
+            add_information(own.grid, &placed, &mut self.products);
+            add_descent(own.grid, &placed, &own.errors, &mut self.slopes);
+            self.squares += squares(own.grid, &own.errors);
+        }
     }
 }

@@ -80,6 +80,18 @@ fn joints_over_the_preload_are_compared_at_each_or_at_one() {
         ],
     );
     bench.refused("compare a.json c.json --preload 100", &["a.json", "100"]);
+    // terms and laws follow the preload too
+    let hardening = |k3: &str| {
+        let nominal = "\"nominal\": 10.0,";
+        OVER_PRELOAD.replace(nominal, &format!("{nominal} \"cubic\": [[1e12], [{k3}]],"))
+    };
+    bench.write("k3.json", hardening("2e12"));
+    bench.write("k3b.json", hardening("3e12"));
+    has(
+        &bench.done("compare k3.json k3b.json").stdout,
+        &["k3_y@10", "k3_y@25", "+50.00 %"],
+    );
+    has(&bench.done("show k3.json").stdout, &["k3_y = 2e12 N/m³"]);
     bench.write("t.json", TORQUES);
     bench.refused("compare a.json t.json", &["degrees of freedom"]);
     bench.edit("b.json", "10.0, 25.0", "10.0, 30.0");

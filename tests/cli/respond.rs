@@ -220,6 +220,38 @@ fn what_belongs_to_assemblies_is_refused_beside_laps() {
     }
 }
 
+/// Body a is released beyond the slip and turns there: as long as its slider sticks again, it swings about where the springs rest.
+#[test]
+fn a_decay_begins_with_the_turn_of_its_slider() {
+    let bench = Bench::new();
+    let (spring, slider, slip_force, start, speed) = (1e5, 1e6, 100.0, 1e-3, -0.05);
+    let joint = format!(
+        r#"{{ "format": "bolted-joint/1", "name": "slider",
+        "joint": {{ "dofs": ["y"], "stiffness": [[{spring:e}]], "damping": [[0.0]],
+          "friction": [{{ "dof": "y", "law": "jenkins", "stiffness": {slider:e}, "slip_force": {slip_force} }}] }},
+        "bodies": {{ "a": {{ "inertia": [1.0], "stiffness": [0.0], "damping": [0.0] }},
+                     "b": {{ "inertia": [1e12], "stiffness": [0.0], "damping": [0.0] }} }} }}"#
+    );
+    bench.write("slider.joint.json", joint);
+    let rest = format!(
+        "[time]\nduration = 1e-3\ninterval = 1e-4\n[start]\n\"a.y\" = {start}\n\"a.v\" = {speed}\n"
+    );
+    let text = study("free-decay", &rest).replace("ex02", "slider");
+    bench.write("study.toml", text);
+    bench.done("respond study.toml -o out.csv");
+    let omega = f64::sqrt(spring + slider);
+    let rest = (slider * start - slip_force) / (spring + slider);
+    for (_, row) in table(&bench.text("out.csv")) {
+        let phase = omega * row["time"];
+        let expected = rest + (start - rest) * phase.cos() + speed / omega * phase.sin();
+        let found = row["a.y"];
+        assert!(
+            (found - expected).abs() < 1e-9 * start,
+            "{found:e} {expected:e}"
+        );
+    }
+}
+
 /// A joint without bodies, with a slider: D = 4h(U − h/k), and no heat while it sticks.
 #[test]
 fn a_loop_has_the_heat_of_its_slider() {

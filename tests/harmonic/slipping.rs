@@ -176,9 +176,9 @@ fn laws() -> [(DofLaws, f64, f64); 5] {
 }
 
 /// Fundamental and third harmonic of the relative motion to which RK4 settles, starting near it.
-fn settled(lap: &Lap<1>, start: LapMoment<1>, load: f64, omega: f64) -> [Complex64; 2] {
+fn settled(lap: &Lap<1>, start: LapState<1>, load: f64, omega: f64) -> [Complex64; 2] {
     let steps = 1600;
-    let mut moment = start;
+    let mut moment = LapStepper::new(lap).begin(start);
     follow(lap, &mut moment, load, omega, [399, steps], |_, _| {});
     let mut sums = [Complex64::ZERO; 2];
     follow(lap, &mut moment, load, omega, [1, steps], |n, r| {
@@ -222,7 +222,7 @@ fn several_harmonics_are_those_of_the_time_history() {
             let balance = HarmonicBalance::new(&lap, Harmonics::odd(15).unwrap()).unwrap();
             let loads = HarmonicLoads::opposed(load);
             let found = balance.forced(omega, &loads, None).unwrap();
-            let start = LapMoment::from(balance.state_at(&found, 0.0));
+            let start = balance.state_at(&found, 0.0);
             let expected = settled(&lap, start, load, omega);
             let size = expected[0].norm();
             for (expected, order) in expected.into_iter().zip([1, 3]) {
@@ -256,9 +256,9 @@ fn five_harmonics_are_those_of_many_sliders() {
 }
 
 /// How the distance of two histories of the relative motion goes on from period to period.
-fn distances(lap: &Lap<1>, start: LapMoment<1>, load: f64, omega: f64) -> Vec<[f64; 2]> {
+fn distances(lap: &Lap<1>, start: LapState<1>, load: f64, omega: f64) -> Vec<[f64; 2]> {
     let steps = 2000;
-    let mut own = start;
+    let mut own = LapStepper::new(lap).begin(start);
     follow(lap, &mut own, load, omega, [150, steps], |_, _| {});
     let mut other = own;
     other.state.a.displacement[0] += 1e-5;
@@ -304,7 +304,7 @@ fn multipliers_are_those_of_two_histories() {
         }
         // Π (E − λ) of the distances vanishes, E being a period's step
         own.retain(|one| one.norm() > 1e-6);
-        let start = LapMoment::from(balance.state_at(&solution, 0.0));
+        let start = balance.state_at(&solution, 0.0);
         let mut left: Vec<[Complex64; 2]> = distances(&lap, start, load, omega)
             .into_iter()
             .map(|distance| distance.map(Complex64::from))
@@ -341,7 +341,7 @@ fn a_stiff_slider_tends_to_den_hartog_s_dry_friction() {
             };
             let mut lap = oscillator(law.into(), 0.0);
             lap.joint.linear.stiffness = [[1.0]];
-            let mut moment = LapMoment::from(LapState::REST);
+            let mut moment = LapStepper::new(&lap).begin(LapState::REST);
             let steps = 3000;
             follow(&lap, &mut moment, 1.0, ratio, [100, steps], |_, _| {});
             let mut largest: f64 = 0.0;

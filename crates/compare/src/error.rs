@@ -1,6 +1,6 @@
 //! Why joints cannot be compared.
 
-use bolted_joint_joint::{DofSet, JointFile, OverPreload};
+use bolted_joint_joint::{DofSet, JointFile, LawError, OverPreload};
 use thiserror::Error;
 
 /// Why joints cannot be compared.
@@ -51,6 +51,9 @@ pub enum CompareError {
         /// Its preloads, N·m.
         second_n_m: Vec<f64>,
     },
+    /// A joint over the preload has no law at one of its preloads.
+    #[error(transparent)]
+    Law(#[from] LawError),
     /// Other laws.
     #[error(
         "{first}: found {first_laws}, {second}: found {second_laws}; expected the same laws: stiffness and damping mean something \

@@ -34,7 +34,7 @@ impl Comparison {
     /// Joints with their names, at least two; those over the preload at the same preloads.
     ///
     /// # Errors
-    /// [`CompareError`] where the joints are not of one kind.
+    /// [`CompareError`] where the joints are not of one kind, or one over the preload is not what a joint file may hold.
     pub fn of(joints: &[(String, JointFile)]) -> Result<Self, CompareError> {
         let [(first_name, first), others @ ..] = joints else {
             return Err(CompareError::TooFew { found: 0 });
@@ -49,7 +49,7 @@ impl Comparison {
         Ok(Self {
             names: joints.iter().map(|own| own.0.clone()).collect(),
             dofs: first.joint.dofs,
-            rows: numbers::rows(&files),
+            rows: numbers::rows(&files)?,
             together: others
                 .iter()
                 .map(|(_, other)| Together::of(first, other))

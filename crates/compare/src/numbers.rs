@@ -1,7 +1,7 @@
-//! The numbers of joints, a row each: entries of K and C, at each preload where there are several, terms and laws.
+//! The numbers of joints, a row each: entries of K and C, terms and laws, at each preload where there are several.
 
 use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS, Term};
-use bolted_joint_joint::{Friction, JointFile, unit};
+use bolted_joint_joint::{Friction, JointFile, LawError, unit};
 
 /// One number of all joints.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,49 +76,68 @@ impl Row {
 type Matrix = [Vec<f64>];
 
 /// All rows; those whose numbers are zero everywhere are left out.
-pub(crate) fn rows(files: &[&JointFile]) -> Vec<Row> {
-    let preloads = files
+pub(crate) fn rows(files: &[&JointFile]) -> Result<Vec<Row>, LawError> {
+    let over_preload = files
         .first()
-        .and_then(|file| file.joint.over_preload.as_ref())
-        .map(|table| table.preload.clone());
+        .and_then(|file| file.joint.over_preload.as_ref());
     let mut rows = Vec::new();
-    for at in preloads.map_or_else(|| vec![None], |all| (0..all.len()).map(Some).collect()) {
-        matrices(files, at, &mut rows);
+    match over_preload {
+        None => rows = all(files),
+        Some(table) => {
+            for preload_n_m in &table.preload {
+                let at = |file: &&JointFile| file.at_preload(Some(*preload_n_m));
+                let at = files.iter().map(at).collect::<Result<Vec<_>, _>>()?;
+                let mut own = all(&at.iter().collect::<Vec<_>>());
+                for row in &mut own {
+                    row.name = format!("{}@{preload_n_m}", row.name);
+                }
+                rows.append(&mut own);
+            }
+        }
     }
+    rows.retain(|row| !row.is_nothing());
+    Ok(rows)
+}
+
+/// Of joints that do not depend on the preload.
+fn all(files: &[&JointFile]) -> Vec<Row> {
+    let mut rows = Vec::new();
+    matrices(files, &mut rows);
     terms(files, &mut rows);
     friction(files, &mut rows);
-    rows.retain(|row| !row.is_nothing());
     rows
 }
 
-fn matrices(files: &[&JointFile], at: Option<usize>, rows: &mut Vec<Row>) {
+fn matrices(files: &[&JointFile], rows: &mut Vec<Row>) {
     let Some(first) = files.first() else { return };
     let dofs = first.joint.dofs;
-    let entry = |matrix: Option<&Matrix>, [i, j]: [usize; 2]| {
-        matrix.and_then(|own| own.get(i)?.get(j).copied())
-    };
-    let kinds: [(&Parameter, Of); 2] = [(STIFFNESS, stiffness), (DAMPING, damping)];
+    let entry = |matrix: &Matrix, [i, j]: [usize; 2]| matrix.get(i)?.get(j).copied();
+    let kinds: [(&Parameter, Of); 2] = [
+        (STIFFNESS, |file| {
+            let deviation = file.uncertainty.as_ref();
+            let deviation = deviation.map(|own| own.standard_deviation.stiffness.as_slice());
+            (&file.joint.stiffness, deviation)
+        }),
+        (DAMPING, |file| {
+            let deviation = file.uncertainty.as_ref();
+            let deviation = deviation.map(|own| own.standard_deviation.damping.as_slice());
+            (&file.joint.damping, deviation)
+        }),
+    ];
     for (parameter, of) in kinds {
         for place in dofs.entries() {
             let values = files.iter().map(|file| {
-                let [value, deviation] = of(file, at);
+                let (value, deviation) = of(file);
+                let deviation = deviation.and_then(|own| entry(own, place));
                 Measured {
                     value: entry(value, place).unwrap_or(0.0),
-                    deviation: entry(deviation, place).filter(|own| *own > 0.0),
+                    deviation: deviation.filter(|own| *own > 0.0),
                 }
             });
-            let behind = at
-                .and_then(|at| first.joint.over_preload.as_ref()?.preload.get(at))
-                .map_or_else(String::new, |preload| format!("@{preload}"));
             let [i, j] = place;
-            let name = format!(
-                "{}_{}{}{behind}",
-                parameter.symbol,
-                dofs.row(i).name,
-                dofs.row(j).name
-            );
+            let [row, column] = [dofs.row(i).name, dofs.row(j).name];
             rows.push(Row::new(
-                name,
+                format!("{}_{row}{column}", parameter.symbol),
                 dofs.unit(parameter.unit, place),
                 values.collect(),
             ));
@@ -126,48 +145,8 @@ fn matrices(files: &[&JointFile], at: Option<usize>, rows: &mut Vec<Row>) {
     }
 }
 
-/// A matrix and its deviations, at one of the preloads where there are several.
-type Of = for<'f> fn(&'f JointFile, Option<usize>) -> [Option<&'f Matrix>; 2];
-
-fn stiffness(file: &JointFile, at: Option<usize>) -> [Option<&Matrix>; 2] {
-    let uncertainty = file.uncertainty.as_ref();
-    match at {
-        None => [
-            Some(file.joint.stiffness.as_slice()),
-            uncertainty.map(|own| own.standard_deviation.stiffness.as_slice()),
-        ],
-        Some(at) => [
-            file.joint
-                .over_preload
-                .as_ref()
-                .and_then(|own| own.stiffness.get(at))
-                .map(Vec::as_slice),
-            uncertainty
-                .and_then(|own| own.over_preload.as_ref()?.at.get(at))
-                .map(|own| own.standard_deviation.stiffness.as_slice()),
-        ],
-    }
-}
-
-fn damping(file: &JointFile, at: Option<usize>) -> [Option<&Matrix>; 2] {
-    let uncertainty = file.uncertainty.as_ref();
-    match at {
-        None => [
-            Some(file.joint.damping.as_slice()),
-            uncertainty.map(|own| own.standard_deviation.damping.as_slice()),
-        ],
-        Some(at) => [
-            file.joint
-                .over_preload
-                .as_ref()
-                .and_then(|own| own.damping.get(at))
-                .map(Vec::as_slice),
-            uncertainty
-                .and_then(|own| own.over_preload.as_ref()?.at.get(at))
-                .map(|own| own.standard_deviation.damping.as_slice()),
-        ],
-    }
-}
+/// A matrix, and its deviations.
+type Of = for<'f> fn(&'f JointFile) -> (&'f Matrix, Option<&'f Matrix>);
 
 fn terms(files: &[&JointFile], rows: &mut Vec<Row>) {
     let Some(first) = files.first() else { return };

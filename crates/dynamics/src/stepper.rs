@@ -16,28 +16,18 @@ pub struct LapMoment<const D: usize> {
     pub memory: JointMemory<D>,
 }
 
-impl<const D: usize> From<LapState<D>> for LapMoment<D> {
-    /// The state of a joint that has not moved yet but for the way to it.
-    fn from(state: LapState<D>) -> Self {
-        Self {
-            state,
-            memory: [DOF_AT_REST; D],
-        }
-    }
-}
-
 /// A lap made ready for steps.
 ///
 /// A body on a spring, beside the cosine that it follows:
 ///
 /// ```
-/// use bolted_joint_dynamics::{Body, JointLaw, Lap, LapLoads, LapMoment, LapState, LapStepper, Motion};
+/// use bolted_joint_dynamics::{Body, JointLaw, Lap, LapLoads, LapState, LapStepper, Motion};
 ///
 /// let body = |stiffness| Body { inertia: [2.0], stiffness: [stiffness], damping: [0.0] };
 /// let lap = Lap { joint: JointLaw::NONE, a: body(8e4), b: body(0.0) };
 /// let at = |displacement| Motion { displacement: [displacement], velocity: [0.0] };
-/// let mut moment = LapMoment::from(LapState { a: at(1e-3), b: at(0.0) });
 /// let stepper = LapStepper::new(&lap);
+/// let mut moment = stepper.begin(LapState { a: at(1e-3), b: at(0.0) });
 /// let (step_s, steps) = (1e-5, 1000);
 /// for _ in 0..steps {
 ///     stepper.step(&mut moment, &[LapLoads { a: [0.0], b: [0.0] }; 3], step_s);
@@ -60,6 +50,16 @@ impl<const D: usize> LapStepper<D> {
             lap: *lap,
             integrator: LapIntegrator::new(lap),
         }
+    }
+
+    /// Where the joint has come straight from rest to this state, and may turn there.
+    #[must_use]
+    pub fn begin(&self, state: LapState<D>) -> LapMoment<D> {
+        let mut memory = [DOF_AT_REST; D];
+        if self.integrator.has_memory() {
+            self.lap.joint.commit(&mut memory, &state.relative());
+        }
+        LapMoment { state, memory }
     }
 
     /// One Runge–Kutta step of `step_s` (s), with the loads at its start, middle and end.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::{Eigenvalue, Lap, LapMoment, LapState, LapStepper, substeps};
+use bolted_joint_dynamics::{Eigenvalue, Lap, LapState, LapStepper, substeps};
 use num_complex::Complex64;
 
 use bolted_joint_harmonic::{Derivative, HarmonicLoads, Observed, Side};
@@ -136,7 +136,7 @@ pub(super) fn history<const D: usize>(
         }
         row
     };
-    let mut moment = LapMoment::from(state);
+    let mut moment = stepper.begin(state);
     let mut rows = vec![row(0.0, &moment.state)];
     let mut largest = [0.0; D];
     larger(&mut largest, &moment.state);
@@ -186,7 +186,7 @@ impl SteppedSine<'_> {
             Some(_) => 0.0,
             None => SETTLED.ln().abs() / slowest_decay(lap).ok_or(Ended::Undamped)?,
         };
-        let mut moment = LapMoment::from(LapState::REST);
+        let mut moment = stepper.begin(LapState::REST);
         let (mut time, mut rows) = (0.0, Vec::with_capacity(self.lines));
         let mut largest = [0.0; D];
         for frequency_hz in frequencies(self.span, self.lines) {

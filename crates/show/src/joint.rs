@@ -162,22 +162,26 @@ fn matrix(
 }
 
 fn terms(file: &JointFile) -> Vec<String> {
-    let dofs = file.joint.dofs;
-    let all = Term::ALL.into_iter().flat_map(|term| {
-        let list = file.joint.term(term).iter().zip(dofs.rows());
-        list.filter(|(value, _)| **value != 0.0)
-            .map(move |(value, dof)| {
-                let row = term.row();
-                format!(
-                    "{}_{} = {} {}",
-                    row.symbol,
-                    dof.name,
-                    short(*value, DIGITS.0),
-                    unit(row.unit, dof.kind, dof.kind)
-                )
-            })
-    });
-    all.collect()
+    let all = Term::ALL.into_iter();
+    all.flat_map(|of| term(file, of, file.joint.term(of)))
+        .collect()
+}
+
+/// A term of each DOF, where it is not zero.
+fn term(file: &JointFile, term: Term, values: &[f64]) -> Vec<String> {
+    let row = term.row();
+    let list = values.iter().zip(file.joint.dofs.rows());
+    list.filter(|(value, _)| **value != 0.0)
+        .map(|(value, dof)| {
+            format!(
+                "{}_{} = {} {}",
+                row.symbol,
+                dof.name,
+                short(*value, DIGITS.0),
+                unit(row.unit, dof.kind, dof.kind)
+            )
+        })
+        .collect()
 }
 
 fn friction(laws: &[Friction]) -> Vec<String> {
@@ -212,10 +216,12 @@ fn over_preload(file: &JointFile, table: &OverPreload) -> Vec<String> {
                 .map(|own| matrix(file, own, None, parameter))
                 .unwrap_or_default()
         };
+        let cubic = table.cubic.get(place).map_or(&[][..], Vec::as_slice);
         let laws = table.friction.get(place).map_or(&[][..], Vec::as_slice);
         let entries = [
             of(&table.stiffness, STIFFNESS),
             of(&table.damping, DAMPING),
+            term(file, Term::CUBIC, cubic),
             friction(laws),
         ]
         .concat();

@@ -1,6 +1,6 @@
 //! What measured functions must be, whatever the structure: passive at a drive point, reciprocal between two points.
 
-use bolted_joint_frf::{Dof, FrfSet, Sign};
+use bolted_joint_frf::{Dof, FrfSet, Sign, turns_backwards};
 use num_complex::Complex64;
 
 /// How a function behaves whose load and response are in one place and direction.
@@ -47,11 +47,6 @@ pub fn drive_points(set: &FrfSet) -> Vec<DrivePoint> {
         .map(|([dof, _], sign, values)| {
             let all: f64 = values.iter().map(|value| value.im.abs()).sum();
             let active = values.iter().map(|value| (sign * value.im).max(0.0));
-            // Im(H_{k+1} H_k*) < 0 where the phase falls, as it does through a resonance of any sign
-            let turn: f64 = values
-                .windows(2)
-                .map(|pair| (pair[1] * pair[0].conj()).im)
-                .sum();
             DrivePoint {
                 dof,
                 active_share: if all > 0.0 {
@@ -59,7 +54,7 @@ pub fn drive_points(set: &FrfSet) -> Vec<DrivePoint> {
                 } else {
                     0.0
                 },
-                turns_backwards: turn > 0.0,
+                turns_backwards: turns_backwards(values),
             }
         })
         .collect()

@@ -11,6 +11,7 @@ use crate::level::{of_residuals, relative_rms, sizes};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
+use crate::reasons;
 use crate::search::{SEARCHED, searched};
 use crate::spread::Spread;
 use crate::study::SpatialStudy;
@@ -233,6 +234,7 @@ impl SpatialStudy {
             free,
             covariances,
             correlation,
+            squares_from_free,
         } = Numbers::of(
             &sought,
             alone.unknowns.0.clone(),
@@ -281,6 +283,8 @@ impl SpatialStudy {
             reasons_against: Vec::new(),
         };
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
+        let of_energy = reasons::of_energy(squares_from_free, count);
+        result.reasons_against.extend(of_energy);
         Ok(result)
     }
 }

@@ -31,6 +31,7 @@ mod numbers;
 mod parallel;
 mod passive;
 mod patterns;
+mod phases;
 mod problem;
 mod reasons;
 #[cfg(test)]

@@ -21,6 +21,8 @@ pub(crate) struct Numbers {
     pub(crate) covariances: [DMatrix<f64>; 2],
     /// Of the unknowns.
     pub(crate) correlation: DMatrix<f64>,
+    /// χ² by which the joint is away from the free estimate: (θ − θ̂)ᵀ F (θ − θ̂).
+    pub(crate) squares_from_free: f64,
 }
 
 impl Numbers {
@@ -35,15 +37,21 @@ impl Numbers {
     ) -> Result<Self, SpatialError> {
         let model = joint.model;
         let count = model.count();
-        let passive = match is_passive(model, &free) {
-            true => free.clone(),
-            false => match covariance(all) {
-                Some(information) => nearest(model, &free, &information, joint.link.length_m)
-                    .unwrap_or_else(|| free.clone()),
-                None if has_converged => return Err(SpatialError::NotDetermined),
-                None => free.clone(),
-            },
-        };
+        let (mut passive, mut squares_from_free) = (free.clone(), 0.0);
+        if !is_passive(model, &free) {
+            let information = covariance(all);
+            if information.is_none() && has_converged {
+                return Err(SpatialError::NotDetermined);
+            }
+            let length_m = joint.link.length_m;
+            if let Some(information) = information
+                && let Some(found) = nearest(model, &free, &information, length_m)
+            {
+                let difference = &found - &free;
+                squares_from_free = difference.dot(&(information * &difference));
+                passive = found;
+            }
+        }
         let matrices = |unknowns: &DVector<f64>| -> Result<[Matrix6<f64>; 2], SpatialError> {
             let (stiffness, damping) = unknowns.as_slice().split_at(count);
             Ok([model.matrix(stiffness)?, model.matrix(damping)?])
@@ -72,6 +80,7 @@ impl Numbers {
             correlation: DMatrix::from_fn(2 * count, 2 * count, |i, j| {
                 all[(i, j)] / (all[(i, i)] * all[(j, j)]).sqrt()
             }),
+            squares_from_free,
         })
     }
 }

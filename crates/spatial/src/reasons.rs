@@ -1,6 +1,7 @@
 //! What speaks against a result.
 
 use bolted_joint_space::semidefinite;
+use bolted_joint_statistics::chi_squared_tail;
 use nalgebra::Matrix6;
 
 use crate::identification::SpatialIdentification;
@@ -13,6 +14,9 @@ const MISFIT: f64 = 1.5;
 
 /// Residual over computed functions, r.m.s., beyond which the model is not that of the data.
 const RESIDUAL_MAX: f64 = 0.5;
+
+/// Probability below which noise does not make a passive joint look like one that feeds energy.
+const UNLIKELY: f64 = 1e-6;
 
 /// Negative eigenvalues of a scaled matrix that noise does not excuse.
 const NOT_PASSIVE: f64 = 1e-9;
@@ -62,6 +66,17 @@ pub(crate) fn of_noise(reduced_chi_squared: Option<f64>) -> Option<String> {
     Some(format!(
         "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
     ))
+}
+
+/// Of a joint that feeds energy, by χ² of the passive one that is nearest, and of how many numbers that is.
+pub(crate) fn of_energy(squares_from_free: f64, numbers: usize) -> Option<String> {
+    // χ² of a passive joint is less than that of as many numbers
+    (chi_squared_tail(squares_from_free, numbers) < UNLIKELY).then(|| {
+        format!(
+            "the functions ask for a joint that feeds energy, and the nearest one that does not is {:.0} standard deviations away: check              signs, and whether phases are counted as in e^(+jωt); errors of the set-up that budget does not have do it too",
+            squares_from_free.sqrt()
+        )
+    })
 }
 
 /// Whether a negative eigenvalue is rounding.

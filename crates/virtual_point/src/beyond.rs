@@ -4,10 +4,11 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use crate::diagnosis::diagnosed;
 use crate::places::Places;
 use crate::projection::Projection;
 use crate::suspects::Spread;
-use crate::{Place, Role, Tolerance, VirtualPoint, VirtualPointError};
+use crate::{Change, Place, Role, Tolerance, VirtualPoint, VirtualPointError};
 
 /// Noise is at least this part of the functions: below it nobody measures.
 const LEAST_NOISE: f64 = 1e-3;
@@ -83,14 +84,39 @@ impl VirtualPoint {
                 return (place, 0.0);
             };
             // a search from the drawing may end in a minimum that is not the least
-            let starts = [&start, &within.end];
+            let by_others = self.by_others(role, place, &search);
+            let starts = [&start, &within.end].into_iter().chain(&by_others);
             let found = starts.map(|start| search.fitted(start, &beyond(Some(place)), noise));
-            let least = found.iter().flatten().map(|own| own.squares);
+            let least = found.flatten().map(|own| own.squares);
             (place, within.squares - least.fold(within.squares, f64::min))
         };
         let mut gains: Vec<(Place, f64)> = all.iter().map(|&place| gain(place)).collect();
         gains.sort_by(|(_, one), (_, other)| other.total_cmp(one));
         Ok(gains)
+    }
+
+    /// Where a search for errors of one place may begin: at the gain that all others tell of each of its rows, which may be far from
+    /// that of the drawing, as that of a signal that is turned round.
+    fn by_others(&self, role: Role, place: Place, search: &Search<'_>) -> Vec<Start> {
+        let places = self.set_up().places(role);
+        let first = match place {
+            Place::Sensor(number) | Place::Impact(number) => places.rows_of_each()[number].start,
+            Place::Channel(row) => row,
+        };
+        let parameters = places.parameters();
+        let gains = (parameters.iter().enumerate()).filter_map(|(k, one)| match one.change {
+            Change::Gain(row) if one.place == place => Some((k, first + row)),
+            _ => None,
+        });
+        let starts = gains.filter_map(|(k, row)| {
+            let (remaining, kept) = self.without(role, &[row])?;
+            let told = diagnosed(places, &[row], &remaining, &kept, search.spread);
+            let mut errors = DVector::zeros(parameters.len());
+            errors[k] = (told.gains.first()? - 1.0) / search.tolerance.gain;
+            let places = search.moved(places, &errors)?;
+            Some(Start { places, errors })
+        });
+        starts.collect()
     }
 }
 

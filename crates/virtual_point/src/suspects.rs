@@ -173,7 +173,11 @@ impl VirtualPoint {
 
     /// Least squares without some rows, and the rows that are kept; none if they leave a motion or no misfit. Weights
     /// are inverse covariances: W of the rest is the inverse of what is left of W⁻¹.
-    fn without(&self, role: Role, dropped: &[usize]) -> Option<(Projection, Vec<usize>)> {
+    pub(crate) fn without(
+        &self,
+        role: Role,
+        dropped: &[usize],
+    ) -> Option<(Projection, Vec<usize>)> {
         let projection = self.projection(role);
         let kept: Vec<usize> = (0..self.count(role))
             .filter(|row| !dropped.contains(row))

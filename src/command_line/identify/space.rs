@@ -35,6 +35,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let study = SpatialStudy::of(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
     warn(&study.advice());
+    warn(&study.phases()?);
     let misfits = study.misfits()?;
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;

@@ -6,20 +6,18 @@ use std::path::Path;
 use num_complex::Complex64;
 
 use super::labelled::Labelled;
-use bolted_joint_frf::Dof;
+use bolted_joint_frf::{Dof, feeds_energy};
 
 /// H_pq and H_qp may differ by this part of them at half of the lines.
 const RECIPROCAL: f64 = 0.2;
 /// They differ by a factor where this makes them so much more alike.
 const MORE_ALIKE: f64 = 0.3;
-/// A drive point whose imaginary parts are positive on balance, by this part of their sum, feeds energy instead of taking it up.
-const ACTIVE: f64 = 0.5;
 
 /// What is wrong with functions between `labels`, each with the file's name.
 pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec<String> {
     let (mut found, mut signs) = (Vec::new(), Vec::new());
     for &(p, q) in &functions.measured {
-        if p == q && is_active(functions.function(p, p)) {
+        if p == q && feeds_energy(functions.function(p, p)) {
             signs.push(labels[p].to_string());
         }
         if p < q && functions.measured.contains(&(q, p)) {
@@ -42,14 +40,6 @@ pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec
     named
         .map(|complaint| format!("{}: {complaint}", path.display()))
         .collect()
-}
-
-/// Im H ≤ 0 for a receptance at a drive point: a force and the motion that it causes dissipate.
-fn is_active(drive_point: &[Complex64]) -> bool {
-    let parts = drive_point.iter().map(|h| h.im / h.norm());
-    let parts: Vec<f64> = parts.filter(|part| part.is_finite()).collect();
-    let sizes: f64 = parts.iter().map(|part| part.abs()).sum();
-    parts.iter().sum::<f64>() > ACTIVE * sizes
 }
 
 /// How two functions that should be the same differ; `None` where they are.
@@ -91,17 +81,6 @@ mod tests {
     fn resonance(line: usize) -> Complex64 {
         let ratio = line as f64 / 50.0;
         Complex64::new(1.0 - ratio * ratio, 0.02 * ratio).inv()
-    }
-
-    #[test]
-    fn a_drive_point_that_feeds_energy_is_told_from_one_that_takes_it_up() {
-        let function: Vec<Complex64> = (1..100).map(resonance).collect();
-        assert!(!is_active(&function));
-        let of = |change: fn(&Complex64) -> Complex64| -> Vec<Complex64> {
-            function.iter().map(change).collect()
-        };
-        assert!(is_active(&of(|h| -h)));
-        assert!(is_active(&of(|h| h.conj())));
     }
 
     #[test]

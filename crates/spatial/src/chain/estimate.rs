@@ -117,13 +117,15 @@ impl ChainStudy {
         }
         let normal = Normal::of(&problem, &best.unknowns, &level)?;
         let all = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
-        let joints: Vec<FoundJoint> = problem
+        let (joints, of_energy): (Vec<FoundJoint>, Vec<Option<String>>) = problem
             .links
             .sought()
             .iter()
             .zip(&self.models)
             .map(|(joint, model)| found(joint, model, &best.unknowns.0, &all))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?
+            .into_iter()
+            .unzip();
         let mut found = ChainIdentification {
             joints,
             apart,
@@ -138,6 +140,9 @@ impl ChainStudy {
             reasons_against: Vec::new(),
         };
         found.reasons_against = found.reasons(best.has_converged);
+        found
+            .reasons_against
+            .extend(of_energy.into_iter().flatten());
         Ok(found)
     }
 
@@ -182,13 +187,13 @@ impl ChainIdentification {
     }
 }
 
-/// One joint of all unknowns and their covariance.
+/// One joint of all unknowns and their covariance, and why it is not to be relied on if it feeds energy.
 fn found(
     joint: &Sought<'_>,
     name: &str,
     values: &DVector<f64>,
     all: &DMatrix<f64>,
-) -> Result<FoundJoint, SpatialError> {
+) -> Result<(FoundJoint, Option<String>), SpatialError> {
     let count = 2 * joint.model.count();
     let own = all
         .view((joint.first, joint.first), (count, count))
@@ -199,10 +204,14 @@ fn found(
         matrices: [stiffness, damping],
         free,
         correlation,
+        squares_from_free,
         ..
     } = Numbers::of(joint, free, &own, &own, true)?;
-    Ok(FoundJoint {
-        key: joint.link.key.clone(),
+    let key = joint.link.key.clone();
+    let of_energy = reasons::of_energy(squares_from_free, count);
+    let of_energy = of_energy.map(|reason| format!("{key}: {reason}"));
+    let found = FoundJoint {
+        key,
         number: joint.number + 1,
         unknowns,
         stiffness,
@@ -211,5 +220,6 @@ fn found(
         correlation,
         model: name.to_owned(),
         free,
-    })
+    };
+    Ok((found, of_energy))
 }

@@ -131,6 +131,37 @@ def test_sensors_a_millimetre_and_a_degree_off_are_in_the_intervals(run, tmp_pat
     assert found["budget_used"] < 1.5 and found["misfits"] == []
 
 
+def test_a_model_that_is_too_simple_is_told(run, tmp_path):
+    """Errors of the set-up make up for what the model leaves out: neither χ² nor the budget shows it."""
+    stiffness = np.diag([2e7, 2e7, 5e7, 6e3, 6e3, 9e3])
+    budget = "budget = { position = 1e-3, rotation = 0.01745, gain = 0.01 }\n"
+    told = []
+    for second in (2e7, 2.6e7):
+        stiffness[1, 1] = second
+        rng = np.random.default_rng(8)
+        rig = Rig(stiffness, 2e-5 * stiffness)
+        rows = [rig.rows(side, (rng, 1e-3, 0.01745, 0.01)) for side in range(2)]
+        rig.write(tmp_path, FREQUENCIES[::3], noise=0.01, rng=rng, rows=rows, more=budget, model='model = "bolt"')
+        done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--report", tmp_path / "r.html", "--json")
+        assert json.loads(done.stdout)["reduced_chi_squared"] < 1.1
+        told.append("a joint of all numbers would fit better" in done.stderr)
+        assert told[-1] == ("a joint of all numbers would fit better" in (tmp_path / "r.html").read_text(encoding="utf-8"))
+    assert told == [False, True]
+
+
+def test_phases_that_are_counted_the_other_way_are_told(run, tmp_path):
+    rig, rng = Rig(K, C), np.random.default_rng(4)
+    rig.write(tmp_path, FREQUENCIES[::2], noise=0.01, rng=rng, more=EXACT)
+    assert "fed energy" not in run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json").stderr
+    for file in "abc":
+        functions = dict(np.load(tmp_path / f"{file}.npz"))
+        np.savez(tmp_path / f"{file}.npz", **functions | {"frf": functions["frf"].conj()})
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3).stderr
+    for name in ("a", "b"):
+        assert f"{name}: 6 of 6 motions of the virtual point answer their own loads as if the structure fed energy" in told
+    assert "counted the other way (e^−jωt)" in told and "ask for a joint that feeds energy" in told, told
+
+
 @pytest.mark.long
 def test_noise_on_everything_is_in_the_intervals(run, program, tmp_path):
     """1 % on every value of a and b, and on the assembly: without that of a and b the errors would be many deviations."""

@@ -12,6 +12,7 @@ use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::reasons;
+use crate::richer;
 use crate::search::{SEARCHED, searched};
 use crate::spread::Spread;
 use crate::study::SpatialStudy;
@@ -58,6 +59,8 @@ struct Found {
     joint: Refined,
     /// Starts that were tried, and that agree.
     starts: [usize; 2],
+    /// That the joint is not what its model says.
+    richer: Option<String>,
 }
 
 impl SpatialStudy {
@@ -122,7 +125,11 @@ impl SpatialStudy {
         };
         let normal = Normal::of(&exact, &unknowns, &level)?;
         let at = with_joint(&best.unknowns, &unknowns);
+        let richer = richer::warning(&estimated, &best.unknowns, |problem, unknowns| {
+            Normal::of(problem, unknowns, &level)
+        })?;
         Ok(Found {
+            richer,
             joint: Refined {
                 covariance: covariance(&normal.information)
                     .ok_or_else(|| undetermined(best.has_converged, starts))?,
@@ -162,6 +169,9 @@ impl SpatialStudy {
         let best = Fit::by(&mut squares, unknowns, Effort::Full)?;
         has_converged &= best.has_converged;
         let information = squares.normal(&best.unknowns)?.information;
+        let richer = richer::warning(&estimated, &best.unknowns, |problem, unknowns| {
+            Beside::of(problem, &level, noise, unknowns)?.normal(unknowns)
+        })?;
         unknowns = best.unknowns.clone();
         // and the joint at all, beside the set-up that was found
         let exact = problem.displaced(&unknowns)?;
@@ -209,6 +219,7 @@ impl SpatialStudy {
             information,
             shown,
             starts,
+            richer,
         })
     }
 
@@ -225,6 +236,7 @@ impl SpatialStudy {
             shown,
             joint: alone,
             starts,
+            richer,
         } = found;
         let spread = Spread::of(estimated, information, alone.covariance.clone())
             .ok_or(SpatialError::NotDetermined)?;
@@ -280,6 +292,7 @@ impl SpatialStudy {
             starts: *starts,
             groups: spread.groups.iter().map(group).collect(),
             errors: problem.found_errors(&best.unknowns, &spread.together),
+            warnings: richer.iter().cloned().collect(),
             reasons_against: Vec::new(),
         };
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);

@@ -133,6 +133,8 @@ pub struct SpatialIdentification {
     pub groups: Vec<Group>,
     /// Errors of the set-up: of the sensors and impacts of a, then of b.
     pub errors: Vec<SetUpError>,
+    /// What to know about the result that does not speak against relying on it.
+    pub warnings: Vec<String>,
     /// Why the result is not to be relied on.
     pub reasons_against: Vec<String>,
 }

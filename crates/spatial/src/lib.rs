@@ -34,6 +34,7 @@ mod patterns;
 mod phases;
 mod problem;
 mod reasons;
+mod richer;
 #[cfg(test)]
 mod samples;
 mod search;

@@ -31,7 +31,15 @@ impl SpatialIdentification {
                 used.sqrt()
             ));
         }
-        reasons.extend(of_noise(self.reduced_chi_squared));
+        let of_noise = of_noise(self.reduced_chi_squared);
+        if self.substructures.is_none() && (of_noise.is_some() || self.relative_rms > RESIDUAL_MAX)
+        {
+            reasons.push(
+                "the functions of a and b are taken as exact: where they were measured, state their noise in noise.a and noise.b"
+                    .to_owned(),
+            );
+        }
+        reasons.extend(of_noise);
         for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
             if let Err(refused) = semidefinite(matrix)
                 && !is_excused(matrix)

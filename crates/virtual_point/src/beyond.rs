@@ -328,4 +328,28 @@ mod tests {
         }
         assert!(named > 20, "{named} of 30");
     }
+
+    /// A signal that is turned round is far from the drawing, and no shift of another impact takes its place.
+    #[test]
+    fn a_turned_impact_is_named_among_errors_of_the_budget() {
+        let tolerance = Tolerance::TYPICAL;
+        let (point, _) = trial(1, None);
+        let parameters = point.set_up().parameters();
+        for impact in 0..9 {
+            let place = Place::Impact(impact);
+            let is_gain = |one: &crate::Parameter| {
+                one.place == place && matches!(one.change, Change::Gain(_))
+            };
+            let parameter = parameters.iter().position(is_gain).unwrap();
+            for seed in [3, 5, 7] {
+                let (point, lines) = trial(1000 * seed, Some((parameter, -2.0)));
+                let gains = point.beyond_budget(Role::Impact, &lines, &tolerance);
+                let [(named, first), (_, second), ..] = gains.unwrap()[..] else {
+                    panic!("nine impacts")
+                };
+                assert_eq!(named, place, "{seed}: {first} {second}");
+                assert!(first > second + 20.0, "{seed}, {impact}: {first} {second}");
+            }
+        }
+    }
 }

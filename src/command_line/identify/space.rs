@@ -40,6 +40,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;
     let found = study.identify()?;
+    warn(&found.warnings);
     warn(not_determined(&found).as_slice());
     let file = found.joint_file(&study);
     let text = file.to_json()?;

@@ -110,7 +110,8 @@ impl SpatialReport<'_> {
         let misfits = self
             .misfits
             .iter()
-            .map(|misfit| warning(&misfit.to_string()));
+            .map(|misfit| warning(&misfit.to_string()))
+            .chain(found.warnings.iter().map(warning));
         let reasons = found.reasons_against.iter();
         let reasons = reasons.map(|reason| warning(&format!("Not to be relied on: {reason}.")));
         html + &misfits.chain(reasons).collect::<String>()

@@ -13,6 +13,9 @@ use crate::definiteness::is_positive_semidefinite;
 /// Halvings that find how much of a slope a matrix bears: as many as a double has digits.
 const HALVINGS: u32 = 53;
 
+/// How far beyond its table, as a part of its range, a preload may come by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// What the joint is beyond the first and the last preload of its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
@@ -242,12 +245,14 @@ impl<const D: usize> JointOverPreload<D> {
         self.beyond
     }
 
-    /// Whether there is a joint at this preload (N·m).
+    /// Whether there is a joint at this preload (N·m). Rounding, of a course that ends where the table does or of an importer that
+    /// interpolates, leads to its end.
     #[inline]
     #[must_use]
     pub fn covers(&self, preload_n_m: f64) -> bool {
         let [first, last] = self.range_n_m();
-        (first..=last).contains(&preload_n_m)
+        let rounding = ROUNDING * (last - first);
+        (first - rounding..=last + rounding).contains(&preload_n_m)
             || self.beyond == Beyond::Held && preload_n_m.is_finite()
     }
 

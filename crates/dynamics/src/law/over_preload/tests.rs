@@ -224,6 +224,7 @@ fn beyond_the_table_is_refused_or_held() {
     }
     for table in [&refused, &held] {
         assert!(table.covers(2.0) && table.covers(8.0) && table.covers(5.5));
+        assert!(table.covers(2.0_f64.next_down()) && table.covers(8.0_f64.next_up()));
         assert!(!table.covers(f64::NAN) && !table.covers(f64::INFINITY));
     }
 }

@@ -18,9 +18,6 @@ use crate::{
 /// Preloads in each gap of the table at which what could go wrong is looked for, beside those of the table.
 const CHECKED_BETWEEN: u32 = 3;
 
-/// How far beyond its table, as a part of its range, a course of the preload may come by rounding.
-const ROUNDING: f64 = 1e-9;
-
 /// The joint with the friction that is among the parameters, or why that cannot be.
 fn with_friction<const D: usize>(
     start: &OverPreload<D>,
@@ -44,13 +41,10 @@ pub(in crate::models) fn check_preload<const D: usize>(
     found_n_m: f64,
     time_s: Option<f64>,
 ) -> Result<(), Refusal> {
-    let [first_n_m, last_n_m] = table.range_n_m();
-    // a course that ends where the table does may pass it by rounding
-    let rounding_n_m = time_s.map_or(0.0, |_| ROUNDING * (last_n_m - first_n_m));
-    let is_rounding = (first_n_m - rounding_n_m..=last_n_m + rounding_n_m).contains(&found_n_m);
-    if table.covers(found_n_m) || is_rounding {
+    if table.covers(found_n_m) {
         return Ok(());
     }
+    let [first_n_m, last_n_m] = table.range_n_m();
     Err(Refusal::Preload {
         found_n_m,
         first_n_m,

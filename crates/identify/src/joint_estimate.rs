@@ -206,6 +206,8 @@ impl JointEstimate {
             // A coupling may be zero: it counts beside the largest that a passive joint has.
             let size = value.abs().max(unknown.passive_bound(joint));
             if identified && deviation > UNRELIABLE * size {
+                // as tables and joint file have it
+                let value = unknown.value(&self.bolts()[unknown.joint]);
                 warnings.push(format!(
                     "{} = {value:.3e} {unit}{at} has a standard deviation of {deviation:.1e} {unit}: the data hardly determine it",
                     unknown.label(bolts),

@@ -14,6 +14,7 @@ use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
 use super::super::output::{Outputs, check_output, print, warn};
+use super::super::progress::Progress;
 use super::super::table::{Table, number};
 use super::{IdentifyArguments, chain};
 
@@ -39,7 +40,9 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let misfits = study.misfits()?;
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;
+    let progress = Progress::new("identifying", 0);
     let found = study.identify()?;
+    drop(progress);
     warn(&found.warnings);
     warn(not_determined(&found).as_slice());
     let file = found.joint_file(&study);

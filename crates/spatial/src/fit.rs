@@ -6,8 +6,11 @@ use crate::error::SpatialError;
 use crate::normal::{Deviations, Normal, bend, cost};
 use crate::problem::{Problem, Unknowns};
 
-/// Steps after which a search has not converged.
+/// Steps after which a search has not converged; and those where noise explains what is left, up to this factor: in a narrow valley
+/// it creeps to the bottom.
 const STEPS_MAX: usize = 150;
+const STEPS_IN_A_VALLEY: usize = 600;
+const EXPLAINED: f64 = 1.5;
 
 /// A step that lowers the cost by less than this part of it, and this much, was the last one.
 const SETTLED: f64 = 1e-8;
@@ -143,7 +146,15 @@ impl Fit {
         let trust = Trust::of(squares.problem());
         let mut damping = trust.first();
         let mut costs = Vec::new();
-        for _ in 0..steps_max {
+        let explained = EXPLAINED * squares.problem().numbers() as f64;
+        loop {
+            let most = match effort == Effort::Full && normal.cost < explained {
+                true => STEPS_IN_A_VALLEY,
+                false => steps_max,
+            };
+            if costs.len() >= most {
+                break;
+            }
             costs.push(normal.cost);
             if is_creeping(effort, &costs) {
                 return Ok(Self {

@@ -118,5 +118,5 @@ fn let_down(
         }
         factor *= (fit.cost / problem.numbers() as f64).sqrt().min(LET_DOWN);
     }
-    Fit::from(problem, unknowns, level)
+    Fit::of(problem, unknowns, level, Effort::Near)
 }

@@ -139,9 +139,9 @@ def test_a_model_that_is_too_simple_is_told(run, tmp_path):
     for second in (2e7, 2.6e7):
         stiffness[1, 1] = second
         rng = np.random.default_rng(8)
-        rig = Rig(stiffness, 2e-5 * stiffness, sensors=3, impacts=9)
+        rig = Rig(stiffness, 2e-5 * stiffness)
         rows = [rig.rows(side, (rng, 1e-3, 0.01745, 0.01)) for side in range(2)]
-        rig.write(tmp_path, FREQUENCIES[::6], noise=0.01, rng=rng, rows=rows, more=budget, model='model = "bolt"')
+        rig.write(tmp_path, FREQUENCIES[::3], noise=0.01, rng=rng, rows=rows, more=budget, model='model = "bolt"')
         done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--report", tmp_path / "r.html", "--json")
         assert json.loads(done.stdout)["reduced_chi_squared"] < 1.1
         told.append("a joint of all numbers would fit better" in done.stderr)

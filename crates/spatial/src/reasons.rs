@@ -81,7 +81,8 @@ pub(crate) fn of_energy(squares_from_free: f64, numbers: usize) -> Option<String
     // χ² of a passive joint is less than that of as many numbers
     (chi_squared_tail(squares_from_free, numbers) < UNLIKELY).then(|| {
         format!(
-            "the functions ask for a joint that feeds energy, and the nearest one that does not is {:.0} standard deviations away: check              signs, and whether phases are counted as in e^(+jωt); errors of the set-up that budget does not have do it too",
+            "the functions ask for a joint that feeds energy, and the nearest one that does not is {:.0} standard deviations away: check \
+             signs, and whether phases are counted as in e^(+jωt); errors of the set-up that budget does not have do it too",
             squares_from_free.sqrt()
         )
     })

@@ -252,38 +252,61 @@ fn measured_resonances(model: &Model, values: &Values, run: &SineRun) -> Vec<(Mo
                 model.strongest(values, amplitude_m, TAU * at.frequency_hz) == motion
             }
         };
-        let first = crossings(run, phase_rad).find(is_of);
+        let way = match model.sees_sum() {
+            true => Between::Load,
+            false => Between::Phase,
+        };
+        let mut all = crossings(run, phase_rad, way);
+        let first = all.find(|at| at.displacement_m > 0.0 && is_of(at));
         found.extend(first.map(|at| (motion, at)));
     }
     found
 }
 
-/// Where the measured phase falls through a value. Between lines the load over the motion is interpolated, since near a resonance
-/// it is a straight line over the frequency, however far the lines are apart.
-fn crossings(run: &SineRun, phase_rad: f64) -> impl Iterator<Item = Resonance> {
+/// Where the measured phase falls through a value, between two lines each.
+fn crossings(run: &SineRun, phase_rad: f64, way: Between) -> impl Iterator<Item = Resonance> {
     run.lines.windows(2).filter_map(move |pair| {
         let [before, after] = [pair[0], pair[1]];
         let [from, to] = [before, after].map(|line| wrapped(line.phase_rad - phase_rad));
         if !(from > 0.0 && to <= 0.0 && from - to < FRAC_PI_2 * 2.0) {
             return None;
         }
-        let load_over_motion = |line: &SineLine, phase_rad: f64| {
+        Some(way.crossing([&before, &after], [from, to]))
+    })
+}
+
+/// What is a straight line between two lines.
+#[derive(Clone, Copy)]
+enum Between {
+    /// The phase, as descriptions of measurements have it.
+    Phase,
+    /// The load over the motion: so it is near a resonance, however few lines that has. That of both bodies together is narrow.
+    Load,
+}
+
+impl Between {
+    /// Where the phase is right, of lines with a phase above and below that.
+    fn crossing(self, [before, after]: [&SineLine; 2], [above, below]: [f64; 2]) -> Resonance {
+        let stiffness = |line: &SineLine, phase_rad: f64| {
             Complex64::from_polar(line.force_n / line.displacement_m, -phase_rad)
         };
-        let (from, to) = (
-            load_over_motion(&before, from),
-            load_over_motion(&after, to),
-        );
-        let share = from.im / (from.im - to.im);
+        let [from, to] = [stiffness(before, above), stiffness(after, below)];
+        let share = match self {
+            Self::Phase => above / (above - below),
+            Self::Load => from.im / (from.im - to.im),
+        };
         let between = |from: f64, to: f64| from + share * (to - from);
         let force_n = between(before.force_n, after.force_n);
-        let stiffness = between(from.re, to.re);
-        (stiffness > 0.0).then(|| Resonance {
+        let displacement_m = match self {
+            Self::Phase => between(before.displacement_m, after.displacement_m),
+            Self::Load => force_n / between(from.re, to.re),
+        };
+        Resonance {
             frequency_hz: between(before.omega, after.omega) / TAU,
             force_n,
-            displacement_m: force_n / stiffness,
-        })
-    })
+            displacement_m,
+        }
+    }
 }
 
 /// Amplitude of the relative motion at a resonance with this phase, m.

@@ -91,10 +91,12 @@ impl LapResponse {
         if study.knows_noise() && self.free_chi_squared() <= NOISE {
             return None;
         }
-        let mut runs = self.receptance_misfits(study).into_iter();
-        let (run, off) = runs.find(|(_, off)| *off > MISFIT)?;
+        let runs = self.receptance_misfits(study).into_iter();
+        let (runs, off): (Vec<&str>, Vec<f64>) = runs.filter(|(_, off)| *off > MISFIT).unzip();
+        let off = off.into_iter().reduce(f64::min)?;
+        let runs = runs.join(", ");
         Some(format!(
-            "half of the receptances of {run} are more than {:.0} % off the model: the study does not describe what was measured (units, \
+            "half of the receptances of {runs} are more than {:.0} % off the model: the study does not describe what was measured (units, \
              phases, places), or the law \"{}\" has nothing to do with it",
             100.0 * off,
             self.model.terms

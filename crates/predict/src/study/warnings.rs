@@ -35,7 +35,7 @@ impl Prediction<'_> {
         let long_m = span(&|own| own.x_m).max(span(&|own| own.y_m));
         (long_m > LONG_M).then(|| {
             format!(
-                "the interface is {long_m:.3} m long: lengths are in m, and these are probably in mm; a bolted interface has some \
+                "the interface is about {long_m:.0} m long: lengths are in m, and these are probably in mm; a bolted interface has some \
                  centimetres"
             )
         })

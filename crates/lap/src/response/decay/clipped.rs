@@ -1,5 +1,5 @@
-//! Records whose peaks are cut off at the end of an instrument's range. They look like the law of a joint that hardens or softens,
-//! and fit none well.
+//! Records whose peaks are cut off at the end of an instrument's range. They look like the law of a joint that hardens or
+//! softens, and fit none well.
 
 use super::DecayProblem;
 

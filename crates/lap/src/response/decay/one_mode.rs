@@ -187,8 +187,8 @@ impl Signal<'_> {
         let places = plain.iter().enumerate();
         places
             .map(|(place, &(time_s, logarithm))| {
-                // of e^{λt + ½κt²} the window's average has the slope λ/(1 − κσ²) and bends by κ/(1 − κσ²); with these, λ' and κ',
-                // the logarithm is more by ½ λ'² σ²/(1 + κ'σ²) + ½ ln(1 + κ'σ²)
+                // of e^{λt + ½κt²} the window's average has the slope λ' = λ/(1 − κσ²) and bends by κ' = κ/(1 − κσ²); its
+                // logarithm is more by ½ λ'² σ²/(1 + κ'σ²) + ½ ln(1 + κ'σ²)
                 let (slope, factor) = (around(place), 1.0 + bent(place) * square);
                 let averaged = 0.5 * (slope * slope * square / factor + factor.ln());
                 (time_s, logarithm - averaged)

@@ -73,6 +73,17 @@ struct Report {
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let path = &arguments.file;
+    if FileKind::of(path) == FileKind::Ssp {
+        return Err(CliError::Kind {
+            path: path.to_owned(),
+            found: FileKind::Ssp.to_string(),
+            expected: "a joint file (JSON), an assembly file (TOML) or an FMU",
+            instead: format!(
+                "unzip it and check the FMUs of its folder `resources` one by one; `bolted-joint show {}` tells how they are connected",
+                path.display()
+            ),
+        });
+    }
     let kind = expect(
         path,
         "a joint file (JSON), an assembly file (TOML) or an FMU",

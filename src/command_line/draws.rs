@@ -24,12 +24,15 @@ pub(super) fn numbers(text: &str) -> Result<Range<u64>, String> {
     }
 }
 
-/// Refuses draws that are not among `all`.
-pub(super) fn among(numbers: &Range<u64>, all: u64) -> Result<(), CliError> {
+/// Refuses draws that are not among `all`; `expected` says where their number is from.
+pub(super) fn among(
+    numbers: &Range<u64>,
+    all: u64,
+    expected: &'static str,
+) -> Result<(), CliError> {
     match numbers.end <= all {
         true => Ok(()),
         false => {
-            let expected = "numbers below that of all draws, which --bootstrap or the study's [uncertainty] states";
             let found = format!("{} of {all}", Numbers(numbers.clone()));
             Err(CliError::option("--draws", found, expected))
         }

@@ -249,7 +249,8 @@ fn part(
     let Some(all) = all_draws(arguments) else {
         return Ok(());
     };
-    among(numbers, all.draws as u64)?;
+    let expected = "numbers below that of all draws, which --bootstrap states";
+    among(numbers, all.draws as u64, expected)?;
     // draws are about the joint that is found, whatever others are beside it
     study.compares_rivals = false;
     let (draws, seed) = (all.draws as u64, all.seed);

@@ -12,6 +12,10 @@ const TOOLS: [&str; 6] = [
     "nastran", "abaqus", "calculix", "ansys", "matlab", "modelica",
 ];
 
+const TWO_SLIDERS: &str = r#"{"format": "bolted-joint/1", "name": "two", "joint": {"dofs": ["y"], "stiffness": [[1e6]], "damping": [[1]],
+"friction": [{"dof": "y", "law": "jenkins", "stiffness": 1e6, "slip_force": 1}, {"dof": "y", "law": "jenkins", "stiffness": 1e6,
+"slip_force": 2}]}}"#;
+
 #[test]
 fn a_file_for_each_tool_says_units_and_signs() {
     let bench = Bench::new();
@@ -57,6 +61,11 @@ fn what_a_tool_cannot_express_is_refused_and_never_dropped() {
     bench.write("iwan.json", IWAN);
     bench.write("over.json", OVER_PRELOAD);
     bench.write("study.toml", "method = \"respond\"\n");
+    bench.write("two.json", TWO_SLIDERS);
+    bench.refused(
+        "convert two.json --to nastran -o o.txt",
+        &["found 2 times jenkins on y, which"],
+    );
     for tool in TOOLS {
         let command = format!("convert iwan.json --to {tool} -o o.txt");
         bench.refused(&command, &["iwan.json: found iwan on y", "--at-rest"]);

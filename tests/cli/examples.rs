@@ -80,6 +80,10 @@ fn a_layered_beam_becomes_an_fmu() {
     let damping = "mode 1 at 1.000e-4 m: damping ratio 0.01200";
     has(&outcome.stdout, &[damping]);
     assert_eq!(bench.text("damping.csv").lines().count(), 1 + 5 * 21);
+    has(
+        &bench.done("show damping.csv").stdout,
+        &["table of a layered beam's damping (CSV)"],
+    );
     let figure = bench.text("damping.svg");
     assert!(figure.starts_with("<svg") && figure.contains("joint file"));
     bench.done("check beam.joint.json");

@@ -5,6 +5,7 @@
     reason = "helpers of tests fail as the tests do"
 )]
 
+mod assembly;
 mod bench;
 mod bolted;
 mod check;
@@ -21,6 +22,7 @@ mod identified;
 mod init;
 mod joint_file;
 mod kept;
+mod lap_data;
 mod lap_response;
 mod merge;
 mod modal_file;

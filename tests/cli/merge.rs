@@ -184,6 +184,19 @@ fn draws_that_cannot_be_made_are_refused() {
         "predict four.toml -o o.json --draws 0..2",
         &["a study with an uncertain value"],
     );
+    let uncertain = replaced(FOUR_BOLTS, "= 1.42", "= \"1.42 ± 0.02\"");
+    bench.write(
+        "uncertain.toml",
+        uncertain + "\n[uncertainty]\ndraws = 1500\n",
+    );
+    let outcome = bench.run("predict uncertain.toml -o o.json --draws 0..5000");
+    assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+    has(&outcome.stderr, &["the study's [uncertainty] states"]);
+    assert!(
+        !outcome.stderr.contains("--bootstrap"),
+        "{}",
+        outcome.stderr
+    );
     bench.write("beam.toml", include_str!("../data/studies/two-layers.toml"));
     bench.refused(
         "predict beam.toml -o o.json --draws 0..2",

@@ -310,6 +310,13 @@ fn tables_and_systems_are_told_by_what_is_in_them() {
         &bench.done("show o.ssp").stdout,
         &["o.ssp: system of FMUs (SSP)", "resources/", "nominal.ssv"],
     );
+    bench.refused(
+        "check o.ssp",
+        &[
+            "found a system of FMUs (SSP)",
+            "check the FMUs of its folder `resources`",
+        ],
+    );
 }
 
 #[test]

@@ -42,8 +42,8 @@ pub enum AssemblyError {
     },
     /// No periodic motion was found.
     #[error(
-        "harmonic balance finds no motion of the assembly near {frequency_hz} Hz; begin elsewhere, with less load or at a smaller \
-         amplitude, or take more harmonics"
+        "harmonic balance finds no motion of the assembly near {frequency_hz} Hz; begin at a frequency farther from resonances, with \
+         less load or at a smaller amplitude, or take another number of harmonics"
     )]
     NotBalanced {
         /// Frequency, Hz.

@@ -46,9 +46,19 @@ pub(crate) fn terms(file: &JointFile) -> Vec<String> {
 }
 
 pub(crate) fn laws(file: &JointFile) -> Vec<String> {
-    let all = file.joint.friction.iter();
-    all.map(|own| format!("{} on {}", own.law.name, own.dof.name))
-        .collect()
+    let mut named: Vec<(String, usize)> = Vec::new();
+    for own in &file.joint.friction {
+        let name = format!("{} on {}", own.law.name, own.dof.name);
+        match named.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => named.push((name, 1)),
+        }
+    }
+    let all = named.into_iter().map(|(name, count)| match count {
+        1 => name,
+        count => format!("{count} times {name}"),
+    });
+    all.collect()
 }
 
 /// Stiffness and damping on the joint's own DOFs: as in the file, or of small motion about rest.

@@ -27,6 +27,22 @@ pub enum LapError {
         /// All lines.
         lines: usize,
     },
+    /// Phases in radian that are degrees.
+    #[error(
+        "{}: found phases beyond ±2π in `phase_rad` in {beyond} of {lines} rows, up to {largest}, expected rad; they are probably degrees: \
+         name the column `phase_deg`, or bring phases that run on over many turns within ±2π",
+        path.display()
+    )]
+    Degrees {
+        /// The file.
+        path: PathBuf,
+        /// Rows with a phase of more than a turn.
+        beyond: usize,
+        /// All rows.
+        lines: usize,
+        /// The largest phase, rad.
+        largest: f64,
+    },
     /// Fewer data than unknowns.
     #[error(
         "found {lines} line(s), each with two numbers beyond its amplitude, expected more than {unknowns} unknowns need; measure more lines or levels"

@@ -16,9 +16,9 @@ pub use parameter::{LapParameter, LapParameters};
 pub use response::{
     AtLimit, BackboneLine, BackbonePrediction, BackboneRun, BetweenRuns, Coloured, Estimate,
     Expected, Fall, Fit, InTime, LapResponse, LapResponseStudy, Limit, Model, ModelComparison,
-    NoInterval, Noise, NoiseIs, NotInTime, Place, PointPrediction, Prediction, Resonance,
+    Motion, NoInterval, Noise, NoiseIs, NotInTime, Place, PointPrediction, Prediction, Resonance,
     ResonanceInterval, ResponseUnknown, RunScatter, SineLine, SineRun, Slider, SliderParameter,
-    SliderValues, TermSet, Use, Values, fit_responses, measured_resonance, predicted_resonance,
+    SliderValues, TermSet, Unpredicted, Use, Values, fit_responses,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

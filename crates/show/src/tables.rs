@@ -27,6 +27,12 @@ pub enum TableKind {
     History,
     /// What `respond` writes of laps.
     Responses,
+    /// What `respond` writes of assemblies, but histories.
+    OfAssembly,
+    /// What `predict --matrix-csv` writes.
+    Matrices,
+    /// What `predict --damping-csv` writes.
+    Damping,
     /// Heights along a surface.
     Profile,
     /// Pressures in an interface.
@@ -53,10 +59,16 @@ impl TableKind {
         }
         if has(&["time_s"]) && has_response {
             Some(Self::Decay)
-        } else if names[0] == "time" {
+        } else if ["time", "time [s]"].contains(&names[0].as_str()) {
             Some(Self::History)
         } else if names[0] == "lap" {
             Some(Self::Responses)
+        } else if names[..names.len().min(2)] == ["matrix", "row"] {
+            Some(Self::Matrices)
+        } else if names[0] == "mode" && has(&["damping ratio"]) {
+            Some(Self::Damping)
+        } else if is_of_assembly(&names) {
+            Some(Self::OfAssembly)
         } else if begins("distance") && begins("height") {
             Some(Self::Profile)
         } else if begins("pressure") && begins("area") {
@@ -74,7 +86,9 @@ impl TableKind {
             Self::Decay => Some("[[decay]] of a study of method \"lap-response\""),
             Self::Profile => Some("surface.profiles of a study for `predict`"),
             Self::Pressures => Some("interface.field of a study for `predict`"),
-            Self::History | Self::Responses => None,
+            Self::History | Self::Responses | Self::OfAssembly | Self::Matrices | Self::Damping => {
+                None
+            }
         }
     }
 }
@@ -87,9 +101,31 @@ impl fmt::Display for TableKind {
             Self::Decay => "a table of a free decay (CSV)",
             Self::History => "a table over time (CSV)",
             Self::Responses => "a table of responses of laps (CSV)",
+            Self::OfAssembly => "a table of responses of an assembly (CSV)",
+            Self::Matrices => "a table of an interface's matrices (CSV)",
+            Self::Damping => "a table of a layered beam's damping (CSV)",
             Self::Profile => "a surface profile (CSV)",
             Self::Pressures => "a pressure field (CSV)",
         })
+    }
+}
+
+/// Whether these are the columns of a backbone, of modes or of a response at outputs that have names in place of nodes.
+fn is_of_assembly(names: &[String]) -> bool {
+    let [across, others @ ..] = names else {
+        return false;
+    };
+    let is_of_output = |name: &String| {
+        let is_function = name.contains('/') && !name.contains(" receptance ");
+        let parts = [" real [", " imaginary [", " largest ["];
+        !is_function && !name.contains(':') && parts.iter().any(|part| name.contains(part))
+    };
+    match across.as_str() {
+        "frequency [hz]" if others == ["damping ratio"] => true,
+        "frequency [hz]" => !others.is_empty() && others.iter().all(is_of_output),
+        across => {
+            across.starts_with("amplitude of ") && others == ["frequency [hz]", "damping ratio"]
+        }
     }
 }
 
@@ -162,6 +198,29 @@ mod tests {
             ("time_s,acceleration_m_per_s2\n", Some(TableKind::Decay)),
             ("\"time\",\"b.F\"\n", Some(TableKind::History)),
             ("lap,level [N]\n", Some(TableKind::Responses)),
+            ("time [s],push [N],tip [m]\n", Some(TableKind::History)),
+            (
+                "frequency [Hz],tip/push receptance real [m/N]\n",
+                Some(TableKind::OfAssembly),
+            ),
+            (
+                "frequency [Hz],tip real [m],tip largest [m]\n",
+                Some(TableKind::OfAssembly),
+            ),
+            (
+                "frequency [Hz],damping ratio\n",
+                Some(TableKind::OfAssembly),
+            ),
+            (
+                "amplitude of tip [m],frequency [Hz],damping ratio\n",
+                Some(TableKind::OfAssembly),
+            ),
+            ("frequency [Hz],2:+Y/1:+Y receptance real [m/N]\n", None),
+            ("# mine\nmatrix,row,x\n", Some(TableKind::Matrices)),
+            (
+                "mode,frequency [Hz],damping ratio\n",
+                Some(TableKind::Damping),
+            ),
             ("distance_um,height_um\n", Some(TableKind::Profile)),
             (
                 "node,x_mm,y_mm,area_mm2,pressure_MPa\n",

@@ -26,7 +26,10 @@ fn at_torques(path: &Path, torques: &[Option<f64>]) -> Vec<PathBuf> {
 }
 
 /// When the report is written, if there is one. Refuses what belongs to measured functions only.
-fn report_time(arguments: &IdentifyArguments) -> Result<Option<Timestamp>, CliError> {
+fn report_time(
+    arguments: &IdentifyArguments,
+    instead_of_rivals: &'static str,
+) -> Result<Option<Timestamp>, CliError> {
     if let Some(draws) = arguments.bootstrap {
         return Err(CliError::option(
             "--bootstrap",
@@ -35,11 +38,7 @@ fn report_time(arguments: &IdentifyArguments) -> Result<Option<Timestamp>, CliEr
         ));
     }
     if arguments.no_rivals {
-        return Err(CliError::option(
-            "--no-rivals",
-            "it",
-            "a study of method \"frf-decoupling\"; a lap model has no rivals",
-        ));
+        return Err(CliError::option("--no-rivals", "it", instead_of_rivals));
     }
     let report = arguments.report.as_ref();
     Ok(report.map(|_| Timestamp::from_environment()).transpose()?)

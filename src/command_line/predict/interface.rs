@@ -83,7 +83,8 @@ pub(super) fn run(
     if let Some(numbers) = &arguments.draws {
         let found = Prediction::without_draws(&study)?;
         let origin = origin_of(&found)?;
-        among(numbers, origin.draws)?;
+        let expected = "numbers below that of all draws, which the study's [uncertainty] states";
+        among(numbers, origin.draws, expected)?;
         let made = found.part(numbers.clone(), &advance);
         drop(progress);
         let (output, results) = (&arguments.output, found.results());

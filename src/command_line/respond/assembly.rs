@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::json;
 
-use bolted_joint::assembly::AssemblyModel;
+use bolted_joint::assembly::{AssemblyModel, Response};
 use bolted_joint::respond::AssemblyAnswer;
 use bolted_joint::study::StudyText;
 
@@ -43,6 +43,11 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
         let expected = "a table such as [response] with kind = \"linear\", from = 5 and to = 2000";
         return Err(text.refusal("response", "nothing", expected).into());
     };
+    if let (Response::Modes, Some(report)) = (response, &arguments.report) {
+        let expected = "none: modes are a list of frequencies and damping ratios, without a picture; leave it out, or choose another \
+                        response.kind";
+        return Err(CliError::option("--report", report.display(), expected));
+    }
     let progress = Progress::of_share("responding");
     let answer = AssemblyAnswer::of(&model, response, &|share| progress.reached(share))?;
     drop(progress);

@@ -176,6 +176,10 @@ fn everything_for_finite_elements_is_written_beside() {
     let row = format!("{:e}", stiffness[2][2].as_f64().unwrap());
     assert!(bench.text("k.csv").contains(&row));
     assert!(bench.text("k.mac").contains("MATRIX27"));
+    has(
+        &bench.done("show k.csv").stdout,
+        &["table of an interface's matrices (CSV)"],
+    );
     // four elements of 2 mm are under each hole
     let lines = bench.text("f.csv").lines().count();
     assert!((2300..=2402).contains(&lines), "{lines}");
@@ -358,3 +362,32 @@ fn the_example_goes_from_profiles_to_an_fmu() {
     bench.done("export j.joint.json -o j.fmu");
     bench.done("check j.fmu");
 }
+
+/// Millimetres, and a friction coefficient without its decimal point.
+#[test]
+fn values_in_another_unit_are_warned_of() {
+    let outcome = bench(PLAIN).done(PREDICT);
+    assert!(!outcome.stderr.contains("probably"), "{}", outcome.stderr);
+    assert!(
+        !outcome.stderr.contains("contact.friction"),
+        "{}",
+        outcome.stderr
+    );
+    let long = replaced(PLAIN, "x = [-0.03, 0.03]", "x = [-30, 30]");
+    let outcome = bench(&replaced(&long, "friction = 0.15", "friction = 5")).run(PREDICT);
+    has(
+        &outcome.stderr,
+        &[
+            "m long",
+            "probably in mm",
+            "contact.friction is 5",
+            "0.1 to 0.8",
+        ],
+    );
+}
+
+const PLAIN: &str = "method = \"fractal-contact\"\nname = \"mine\"\n[materials]\na = { youngs_modulus = 210e9, poissons_ratio = 0.3 }\n\
+b = { youngs_modulus = 70e9, poissons_ratio = 0.33 }\n[surface]\nfractal_dimension = 1.4\nroughness = 1e-11\n[contact]\nhardness = 1e9\n\
+friction = 0.15\nshear_strength = 0\n[interface]\nx = [-0.03, 0.03]\ny = [-0.02, 0.02]\nelements = [40, 30]\n[pressure]\n\
+model = \"uniform\"\n[[bolts]]\nx = -0.015\ny = 0\ndiameter = 0.008\npreload = 8000\n[[bolts]]\nx = 0.015\ny = 0\n\
+diameter = 0.008\npreload = 8000\n[joint]\ntranslation = \"x\"\nrotation = \"-y\"\n[damping]\nfrequency = 100\n";

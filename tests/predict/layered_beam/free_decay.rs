@@ -5,7 +5,7 @@ use std::path::Path;
 
 use bolted_joint::predict::layered_beam::{LayeredBeamStudy, Outcome};
 use bolted_joint::study::StudyText;
-use bolted_joint_dynamics::{LapLoads, LapMoment, LapState, LapStepper, Motion};
+use bolted_joint_dynamics::{LapLoads, LapState, LapStepper, Motion};
 
 use bolted_joint_testing::close;
 
@@ -33,12 +33,12 @@ fn peaks(outcome: &Outcome, amplitude: f64, periods: u32) -> Vec<(f64, f64)> {
         displacement: [displacement],
         velocity: [0.0],
     };
-    let mut moment = LapMoment::from(LapState {
+    let stepper = LapStepper::new(&lap);
+    let mut moment = stepper.begin(LapState {
         a: at(amplitude),
         b: at(share * amplitude),
     });
     let loads = LapLoads { a: [0.0], b: [0.0] };
-    let stepper = LapStepper::new(&lap);
     let step = 1.0 / mode.frequency_hz / f64::from(STEPS_PER_PERIOD);
     let mut found = vec![(0.0, amplitude)];
     for number in 1..=periods * STEPS_PER_PERIOD {
@@ -151,7 +151,7 @@ fn at_resonance_the_force_of_friction_holds_any_amplitude() {
             displacement: [displacement],
             velocity: [0.0],
         };
-        let mut moment = LapMoment::from(LapState {
+        let mut moment = stepper.begin(LapState {
             a: at(-amplitude),
             b: at(-share * amplitude),
         });

@@ -5,8 +5,11 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use super::follow::Curve;
+use super::follow::{Curve, point};
 use super::{ForcedPoint, OF_FREQUENCY, Problem};
+
+/// Loads of the first point come in so many parts.
+const PARTS: u32 = 20;
 
 /// Forced motion: unknowns are the motion and ω.
 pub(super) struct Forced<'p, 'm> {
@@ -29,6 +32,29 @@ impl Forced<'_, '_> {
         }
         start[problem.size()] = omega;
         Some(start)
+    }
+
+    /// The motion at a frequency (rad/s), which grows with the loads in equal parts.
+    pub(super) fn in_parts(&self, omega: f64) -> Option<DVector<f64>> {
+        let size = self.problem.size();
+        let mut start = self.at_load(f64::from(PARTS).recip()).linear(omega)?;
+        for part in 1..=PARTS {
+            let share = f64::from(part) / f64::from(PARTS);
+            if part > 1 {
+                start *= share / (share - 1.0 / f64::from(PARTS));
+                start[size] = omega;
+            }
+            start = point(&self.at_load(share), &start, size)?;
+        }
+        Some(start)
+    }
+
+    /// The same under a part of the loads.
+    pub(super) fn at_load(&self, share: f64) -> Self {
+        Self {
+            problem: self.problem,
+            loads: &self.loads * Complex64::from(share),
+        }
     }
 
     pub(super) fn outputs(&self, unknowns: &DVector<f64>) -> Option<ForcedPoint> {

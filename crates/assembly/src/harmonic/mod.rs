@@ -8,6 +8,7 @@ mod condensed;
 mod follow;
 mod forced;
 mod free;
+mod grown;
 mod sampling;
 
 use std::f64::consts::TAU;
@@ -21,6 +22,7 @@ use condensed::{At, Condensed, Dynamic};
 use follow::{follow, point};
 use forced::Forced;
 use free::Free;
+use grown::Grown;
 use sampling::Sampling;
 
 /// Part of the frequency by which it is varied for the derivatives of what is linear.
@@ -30,8 +32,6 @@ const OF_FREQUENCY: f64 = 0.02;
 /// A damping ratio that counts as much, and a change of the amplitude's logarithm.
 const OF_RATIO: f64 = 0.01;
 const OF_LOGARITHM: f64 = 1.0;
-/// Loads of the first point come in so many parts.
-const PARTS: u32 = 20;
 /// Inverse iterations for the shape of a mode.
 const ITERATIONS: usize = 8;
 
@@ -76,22 +76,10 @@ impl AssemblyModel {
             problem: &problem,
         };
         let omega = TAU * from_hz;
-        let mut start = DVector::zeros(problem.size() + 1);
-        start[problem.size()] = omega;
-        for part in 1..=PARTS {
-            let share = f64::from(part) / f64::from(PARTS);
-            let own = Forced {
-                loads: &forced.loads * Complex64::from(share),
-                problem: &problem,
-            };
-            if part == 1 {
-                start = own.linear(omega).ok_or_else(|| not_balanced(from_hz))?;
-            } else {
-                start *= share / (share - 1.0 / f64::from(PARTS));
-                start[problem.size()] = omega;
-            }
-            start = point(&own, &start, problem.size()).ok_or_else(|| not_balanced(from_hz))?;
-        }
+        let start = forced
+            .in_parts(omega)
+            .or_else(|| Grown::new(&forced, omega).to_full_load());
+        let start = start.ok_or_else(|| not_balanced(from_hz))?;
         let found = follow(&forced, start, problem.size(), TAU * to_hz, progress);
         let points = found.map_err(|lost| {
             let last = lost.points.last().map_or(omega, |own| own[problem.size()]);

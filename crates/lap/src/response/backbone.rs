@@ -253,9 +253,14 @@ pub(super) fn start(model: &Model, data: Data<'_>, known: &Values) -> Option<Val
     Some(start)
 }
 
-/// Reads a backbone; `share` is that of the relative motion in what was measured.
-pub(super) fn read_backbone(path: &Path, share: f64) -> Result<Vec<BackboneLine>, LapError> {
-    let table = NumberTable::read(path)?;
+/// Reads a backbone; `share` is that of the relative motion in what was measured. Rows that stand in the table again count once,
+/// and the second value is how many those are.
+pub(super) fn read_backbone(
+    path: &Path,
+    share: f64,
+) -> Result<(Vec<BackboneLine>, usize), LapError> {
+    let mut table = NumberTable::read(path)?;
+    let repeated = table.without_repeats();
     let (frequency, by) = table.required(&["frequency_hz", "omega_rad_per_s"], "")?;
     let (response, order) = table.required(&RESPONSE, "")?;
     let ratio = table.column(&["damping_ratio"]);
@@ -294,7 +299,7 @@ pub(super) fn read_backbone(path: &Path, share: f64) -> Result<Vec<BackboneLine>
     if lines.is_empty() {
         return Err(table.problem(1, "no rows".to_owned(), "at least one"));
     }
-    Ok(lines)
+    Ok((lines, repeated))
 }
 
 /// Reads a free decay and turns one mode of it into a backbone, that in the band where one is given.
@@ -321,30 +326,46 @@ pub(super) fn read_decay(
         let (found, expected) = match problem {
             DecayProblem::Uneven => (
                 "times that do not ascend evenly".to_owned(),
-                "samples at equal distances",
+                "samples at equal distances".to_owned(),
+            ),
+            DecayProblem::Clipped {
+                limit,
+                samples,
+                last_s,
+            } => (
+                format!(
+                    "a clipped record: {samples} samples stand at exactly {limit:e}, several in a row at one peak after the other, the last \
+                     at {last_s:.4} s"
+                ),
+                "a record within the instrument's range: measure with less gain, or begin the table behind the last clipped peak"
+                    .to_owned(),
             ),
             DecayProblem::NoMode => (
                 "no vibration that stands out of the noise".to_owned(),
-                "a free decay of one mode; `band` in Hz may be beside it",
+                "a free decay of one mode; `band` in Hz may be beside it".to_owned(),
             ),
             DecayProblem::Several(hz) => {
                 let hz: Vec<String> = hz.iter().map(|hz| format!("{hz:.1} Hz")).collect();
                 (
                     format!("modes at {}", hz.join(", ")),
-                    ONE_MODE,
+                    ONE_MODE.to_owned(),
                 )
             }
             DecayProblem::Rises {
                 at_s,
                 times,
                 apart_hz,
+                mode_hz,
             } => (
                 format!(
                     "an amplitude that rises {times:.2} times after {at_s:.3} s, as two modes make it that are {apart_hz:.1} Hz apart, \
-                     or another impact"
+                     another impact, or a frequency that moves out of the band"
                 ),
-                "the free decay of one mode, behind the last impact; name the band that holds it and no other, such as \
-                 band = [60, 100] in Hz",
+                format!(
+                    "the free decay of one mode, behind the last impact; name the band that holds it and no other, such as \
+                     band = [60, 100] in Hz; where the frequency itself moves far with the amplitude, a wide one, such as {}",
+                    wide(mode_hz)
+                ),
             ),
             DecayProblem::Leaves {
                 mode_hz,
@@ -355,13 +376,21 @@ pub(super) fn read_decay(
                     "a mode at {mode_hz:.1} Hz, and beside it {:.0} % of its size, most at {other_hz:.1} Hz",
                     100.0 * part
                 ),
-                ONE_MODE,
+                format!(
+                    "{ONE_MODE}; where the frequency itself moves that far with the amplitude, a wide one, such as {}",
+                    wide(mode_hz)
+                ),
             ),
             DecayProblem::TooShort(count) => (
                 format!("{count} stretch(es) of ten half-periods in the decay"),
-                "at least two: a longer record, with less noise, or a wider band",
+                "at least two: a longer record, with less noise, or a wider band".to_owned(),
             ),
         };
-        table.problem(1, found, expected)
+        table.problem(1, found, &expected)
     })
+}
+
+/// A band about a mode whose frequency moves: half of it to either side, as where no band is named.
+fn wide(mode_hz: f64) -> String {
+    format!("band = [{:.0}, {:.0}]", 0.5 * mode_hz, 1.5 * mode_hz)
 }

@@ -93,9 +93,13 @@ pub(super) const RESPONSE: [&str; 3] = [
 ];
 const PHASE: [&str; 2] = ["phase_rad", "phase_deg"];
 
-/// Reads a run.
-pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, LapError> {
-    let table = NumberTable::read(path)?;
+/// Phases that go on over several turns are not wrapped; beyond so many most of them are degrees.
+const TURNS: f64 = 2.0;
+
+/// Reads a run; rows that stand in the table again count once, and the second value is how many those are.
+pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<(SineRun, usize), LapError> {
+    let mut table = NumberTable::read(path)?;
+    let repeated = table.without_repeats();
     let frequency = table.required(&FREQUENCY, "")?;
     let force = table.required(&["force_n"], "")?;
     let response = table.required(&RESPONSE, "")?;
@@ -103,6 +107,13 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, La
         &PHASE,
         ": a level without phase does not tell damping from stiffness",
     )?;
+    if phase.1 == 0 {
+        let phases = table
+            .rows()
+            .iter()
+            .filter_map(|(_, values)| values[phase.0]);
+        refuse_degrees(path, &phases.collect::<Vec<f64>>())?;
+    }
     let own = PhaseOf::ALL[response.1];
     let phase_of = options.phase_of.unwrap_or(own);
     let mut lines = Vec::new();
@@ -172,12 +183,34 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<SineRun, La
             lines: lines.len(),
         });
     }
-    Ok(SineRun {
+    let run = SineRun {
         name: options.name,
         path: path.to_owned(),
         used_for: options.used_for,
         lines,
-    })
+    };
+    Ok((run, repeated))
+}
+
+/// Refuses phases in radian of which most are beyond a turn, and the largest beyond several.
+fn refuse_degrees(path: &Path, phases: &[f64]) -> Result<(), LapError> {
+    let beyond = phases.iter().filter(|phase| phase.abs() > TAU).count();
+    let largest = phases.iter().copied().fold(0.0, |largest: f64, phase| {
+        if phase.abs() > largest.abs() {
+            phase
+        } else {
+            largest
+        }
+    });
+    if 2 * beyond > phases.len() && largest.abs() > TURNS * TAU {
+        return Err(LapError::Degrees {
+            path: path.to_owned(),
+            beyond,
+            lines: phases.len(),
+            largest,
+        });
+    }
+    Ok(())
 }
 
 /// An angle between −π and π.

@@ -31,11 +31,11 @@ pub use choice::ModelComparison;
 pub use data::{SineLine, SineRun, Use};
 pub use decay::{Coloured, InTime, NotInTime};
 pub use fit::{AtLimit, Fit};
-pub use model::{Model, ResponseUnknown, Values};
+pub use model::{Model, Motion, ResponseUnknown, Values};
 pub use passive::Limit;
 pub use prediction::{
     BackbonePrediction, BetweenRuns, Expected, Fall, NoInterval, PointPrediction, Prediction,
-    Resonance, ResonanceInterval, RunScatter, measured_resonance, predicted_resonance,
+    Resonance, ResonanceInterval, RunScatter, Unpredicted,
 };
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};

@@ -1,6 +1,7 @@
 //! The lap model as a test sees it: what is unknown, and force, response and phase as functions of the relative amplitude.
 
 use std::borrow::Cow;
+use std::f64::consts::FRAC_PI_2;
 
 use bolted_joint_dynamics::{Polynomial, law::Term};
 use nalgebra::DVector;
@@ -66,6 +67,21 @@ impl ResponseUnknown {
         };
         unit.into()
     }
+}
+
+/// A motion of the two bodies that may resonate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Motion {
+    /// Both together, which leaves the joint alone.
+    Together,
+    /// One against the other.
+    Relative,
+}
+
+impl Motion {
+    /// All.
+    pub const ALL: [Self; 2] = [Self::Together, Self::Relative];
 }
 
 /// A value of everything.
@@ -263,6 +279,29 @@ impl Model {
             values.support_stiffness - values.mass * omega * omega,
             omega * values.support_damping,
         )
+    }
+
+    /// Phase of the response against the force where a motion resonates, rad; `None` of one that is not seen.
+    pub(super) fn phase_of_resonance(&self, motion: Motion) -> Option<f64> {
+        match motion {
+            Motion::Together => self.sees_sum().then_some(-FRAC_PI_2),
+            // driven at one body and seen at the other, the bodies' relative motion is turned round
+            Motion::Relative => Some(-FRAC_PI_2.copysign(self.relative_factor())),
+        }
+    }
+
+    /// Which motion makes more of the response.
+    pub(super) fn strongest(&self, values: &Values, amplitude_m: f64, omega: f64) -> Motion {
+        let (sum, of_sum) = (self.loads().1, self.shares().0);
+        let together = of_sum * sum / Self::sum_stiffness(values, omega);
+        let relative = self.relative_factor()
+            / RelativeMotion::fundamental(values)
+                .stiffness(amplitude_m, omega)
+                .value;
+        match self.sees_sum() && together.norm() > relative.norm() {
+            true => Motion::Together,
+            false => Motion::Relative,
+        }
     }
 
     /// Receptance and force (N) at an amplitude of the relative motion (m).

@@ -32,6 +32,7 @@ impl LapResponse {
         reasons.extend(self.because_of_the_search());
         reasons.extend(self.because_nothing_is_told());
         reasons.extend(self.because_of_the_noise(study));
+        reasons.extend(self.because_of_a_run(study));
         reasons.extend(self.because_of_misfit(study));
         reasons
     }
@@ -85,6 +86,23 @@ impl LapResponse {
         })
     }
 
+    /// A run of which half is another thing than the model's: beside better ones it is a minority of all lines.
+    fn because_of_a_run(&self, study: &LapResponseStudy) -> Option<String> {
+        if study.knows_noise() && self.free_chi_squared() <= NOISE {
+            return None;
+        }
+        let runs = self.receptance_misfits(study).into_iter();
+        let (runs, off): (Vec<&str>, Vec<f64>) = runs.filter(|(_, off)| *off > MISFIT).unzip();
+        let off = off.into_iter().reduce(f64::min)?;
+        let runs = runs.join(", ");
+        Some(format!(
+            "half of the receptances of {runs} are more than {:.0} % off the model: the study does not describe what was measured (units, \
+             phases, places), or the law \"{}\" has nothing to do with it",
+            100.0 * off,
+            self.model.terms
+        ))
+    }
+
     fn because_of_misfit(&self, study: &LapResponseStudy) -> Option<String> {
         if study.knows_noise() && self.free_chi_squared() <= NOISE {
             return None;
@@ -101,7 +119,6 @@ impl LapResponse {
             ratios.collect()
         });
         let kinds = [
-            ("receptances", self.receptance_misfit(study), MISFIT),
             ("frequencies", frequencies, MISFIT_OF_FREQUENCIES),
             ("damping ratios", ratios, MISFIT),
         ];
@@ -116,24 +133,28 @@ impl LapResponse {
         ))
     }
 
-    /// Median of |measured − computed|/max(|measured|, |computed|) over the lines of all sines that were fitted.
-    fn receptance_misfit(&self, study: &LapResponseStudy) -> Option<f64> {
+    /// Median of |measured − computed|/max(|measured|, |computed|) over the lines of each sine that was fitted.
+    fn receptance_misfits<'s>(&self, study: &'s LapResponseStudy) -> Vec<(&'s str, f64)> {
+        let mut amplitudes_m = self.fit.amplitudes_m.iter();
         let fitted = study
             .sines
             .iter()
             .filter(|run| run.used_for == super::Use::Fit);
-        let lines = fitted.flat_map(|run| &run.lines);
-        let values = lines
-            .zip(&self.fit.amplitudes_m)
-            .map(|(line, &amplitude_m)| {
-                let (computed, _) =
-                    self.model
-                        .receptance(&self.fit.values, amplitude_m, line.omega);
-                let measured =
-                    Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
-                (measured - computed).norm() / measured.norm().max(computed.norm())
-            });
-        median(values)
+        let misfits = fitted.filter_map(|run| {
+            let values = run.lines.iter().zip(amplitudes_m.by_ref());
+            let values: Vec<f64> = values
+                .map(|(line, &amplitude_m)| {
+                    let (computed, _) =
+                        self.model
+                            .receptance(&self.fit.values, amplitude_m, line.omega);
+                    let measured =
+                        Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
+                    (measured - computed).norm() / measured.norm().max(computed.norm())
+                })
+                .collect();
+            Some((run.name.as_str(), median(values.into_iter())?))
+        });
+        misfits.collect()
     }
 }
 

@@ -10,8 +10,10 @@ use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
 use super::decay::InTime;
 use super::fit::Fit;
-use super::model::{Model, ResponseUnknown, Values};
-use super::prediction::{BackbonePrediction, BetweenRuns, NoInterval, Prediction, Spread};
+use super::model::{Model, Motion, ResponseUnknown, Values};
+use super::prediction::{
+    BackbonePrediction, BetweenRuns, NoInterval, Prediction, Spread, Unpredicted,
+};
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
 use super::told::{Searched, by_searched};
@@ -73,6 +75,8 @@ pub struct LapResponse {
     pub in_time: InTime,
     /// Resonances of all runs, measured and of the model.
     pub predictions: Vec<Prediction>,
+    /// Runs that were left out and have no resonance.
+    pub unpredicted: Vec<Unpredicted>,
     /// Backbones and free decays beside the model's.
     pub backbones: Vec<BackbonePrediction>,
     /// What those that were fitted differ by as a whole; `None` where fewer than two tell it.
@@ -139,10 +143,8 @@ impl LapResponse {
         });
         let estimates = estimates.collect();
         let of_fit = Searched::of(&model, &fit, factor);
-        let predictions = match model.sees_sum() {
-            true => Vec::new(),
-            false => Prediction::of_all(&model, &fit, &study.sines, &of_fit.covariance),
-        };
+        let (predictions, unpredicted) =
+            Prediction::of_all(&model, &fit, &study.sines, &of_fit.covariance);
         let spread = Spread {
             covariance: &of_fit.covariance,
             noise: &study.noise,
@@ -187,6 +189,7 @@ impl LapResponse {
             unrest: chosen.unrest,
             in_time: chosen.in_time,
             predictions,
+            unpredicted,
             backbones: of_backbones,
             between_runs,
             amplitude_m,
@@ -226,14 +229,15 @@ impl LapResponse {
     /// Why runs have no interval that their resonance is expected in, a sentence for each reason.
     #[must_use]
     pub fn without_interval(&self) -> Vec<String> {
-        let mut reasons: Vec<(NoInterval, Vec<&str>)> = Vec::new();
+        let mut reasons: Vec<(NoInterval, Vec<String>)> = Vec::new();
         for row in &self.predictions {
             let Some(reason) = row.no_interval else {
                 continue;
             };
+            let run = self.named(row);
             match reasons.iter_mut().find(|(own, _)| *own == reason) {
-                Some((_, runs)) => runs.push(&row.run),
-                None => reasons.push((reason, vec![&row.run])),
+                Some((_, runs)) => runs.push(run),
+                None => reasons.push((reason, vec![run])),
             }
         }
         let all = self.predictions.len();
@@ -243,7 +247,35 @@ impl LapResponse {
                 true => format!("No run has an interval: {reason}."),
                 false => format!("No interval for {}: {reason}.", runs.join(", ")),
             });
-        told.collect()
+        let unpredicted = self.unpredicted.iter();
+        let of_others = unpredicted
+            .map(|own| format!("No resonance of {} is predicted: {}.", own.run, own.reason));
+        told.chain(of_others).collect()
+    }
+
+    /// A resonance in words: the run, and what resonates where that may be one of two motions.
+    #[must_use]
+    pub fn named(&self, row: &Prediction) -> String {
+        match (self.model.sees_sum(), row.motion) {
+            (false, _) => row.run.clone(),
+            (true, Motion::Together) => format!("{}, both bodies together", row.run),
+            (true, Motion::Relative) => format!("{}, relative motion", row.run),
+        }
+    }
+
+    /// Amplitude of the relative motion (m) and frequency (Hz) of its measured resonances, in the order of amplitude.
+    #[must_use]
+    pub fn measured_backbone(&self) -> Vec<(f64, f64)> {
+        let rows = self.predictions.iter();
+        let relative = rows.filter(|row| row.motion == Motion::Relative);
+        let mut points: Vec<(f64, f64)> = relative
+            .map(|row| {
+                let amplitude_m = row.relative_m(&self.model, &self.fit.values);
+                (amplitude_m, row.measured.frequency_hz)
+            })
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points
     }
 
     /// How free decays went into the estimate, in a sentence; `None` where none did.

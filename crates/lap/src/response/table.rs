@@ -1,5 +1,6 @@
 //! Columns of numbers with units in their names, as the tables of responses have them.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use bolted_joint_files::Decimal;
@@ -81,6 +82,17 @@ impl<'p> NumberTable<'p> {
     /// The line of the file and the values of some columns in each row. `wanted` are places of columns.
     pub(super) fn rows(&self) -> &[(usize, Vec<Option<f64>>)] {
         &self.rows
+    }
+
+    /// Takes rows away that equal an earlier one in all columns, and says how many these were.
+    pub(super) fn without_repeats(&mut self) -> usize {
+        let all = self.rows.len();
+        let mut seen = HashSet::new();
+        self.rows.retain(|(_, values)| {
+            let bits: Vec<Option<u64>> = values.iter().map(|own| own.map(f64::to_bits)).collect();
+            seen.insert(bits)
+        });
+        all - self.rows.len()
     }
 
     /// The place of the column with one of these names, and which name it has.

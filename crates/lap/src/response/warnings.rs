@@ -27,7 +27,7 @@ impl LapResponse {
     /// The warnings.
     #[must_use]
     pub fn warnings(&self, study: &LapResponseStudy) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let mut warnings = study.repeats.found.clone();
         let open = self.not_identified();
         if !open.is_empty() {
             warnings.push(format!(
@@ -70,7 +70,7 @@ impl LapResponse {
             if missed_frequency || missed_amplitude {
                 warnings.push(format!(
                     "the resonance of {}, which was left out, is missed by more than {FREQUENCY_HZ} Hz or {} %",
-                    row.run,
+                    self.named(row),
                     100.0 * AMPLITUDE
                 ));
             }

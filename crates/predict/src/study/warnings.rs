@@ -1,7 +1,9 @@
 //! What a reader should know before using a predicted joint.
 
+use super::check::ContactInputs;
 use super::prediction::Prediction;
 use crate::patch::LossFactor;
+use crate::pressure::Element;
 
 /// An imbalance of field and preloads that is worth a word.
 const IMBALANCE: f64 = 0.01;
@@ -14,11 +16,49 @@ const FAR_FROM_PATCHES: f64 = 0.2;
 /// Share of refused draws from which the intervals are those of another distribution.
 const REFUSED: f64 = 0.05;
 
+/// An interface that is longer, m, has its lengths in another unit.
+const LONG_M: f64 = 3.0;
+/// Coefficient of friction that no two solids under a bolt have.
+const ROUGH: f64 = 1.5;
+
 impl Prediction<'_> {
+    /// An interface as long as a house is one in millimetres.
+    fn of_size(&self) -> Option<String> {
+        let elements = self.study.geometry.elements();
+        let span = |of: &dyn Fn(&Element) -> f64| {
+            let ends = [f64::INFINITY, f64::NEG_INFINITY];
+            let ends = elements.iter().fold(ends, |[low, high], own| {
+                [low.min(of(own)), high.max(of(own))]
+            });
+            ends[1] - ends[0]
+        };
+        let long_m = span(&|own| own.x_m).max(span(&|own| own.y_m));
+        (long_m > LONG_M).then(|| {
+            format!(
+                "the interface is about {long_m:.0} m long: lengths are in m, and these are probably in mm; a bolted interface has some \
+                 centimetres"
+            )
+        })
+    }
+
+    fn of_friction(&self) -> Option<String> {
+        let ContactInputs::Fractal { friction, .. } = self.study.contact else {
+            return None;
+        };
+        let coefficient = self.study.inputs.nominal().of(friction);
+        (coefficient > ROUGH).then(|| {
+            format!(
+                "contact.friction is {coefficient}: metals have 0.1 to 0.8; check its decimal point, and that it is not in per cent"
+            )
+        })
+    }
+
     /// Warnings, a sentence each; none where all is well.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
+        warnings.extend(self.of_size());
+        warnings.extend(self.of_friction());
         for share in self.study.geometry.shares() {
             if share.part_on_plate < 1.0 - IMBALANCE {
                 warnings.push(share.to_string());

@@ -121,14 +121,17 @@ impl LapResponseReport<'_> {
     }
 
     fn resonances(&self) -> String {
+        let without = self.found.without_interval().into_iter();
+        let without = without.map(|reason| format!("<p>{}</p>\n", escaped(&reason)));
+        let without: String = without.collect();
         if self.found.predictions.is_empty() {
-            return String::new();
+            return without;
         }
         let signed = |value: String| value.replace('-', "−");
         let rows = self.found.predictions.iter().map(|row| {
             let optional = |value: Option<String>| value.unwrap_or_else(|| "none".to_owned());
             [
-                cell(&escaped(&row.run)),
+                cell(&escaped(&self.found.named(row))),
                 cell(if row.left_out {
                     "<b>left out</b>"
                 } else {
@@ -163,11 +166,9 @@ impl LapResponseReport<'_> {
             .concat()
         });
         let rows: Vec<String> = rows.collect();
-        let without = self.found.without_interval().into_iter();
-        let without = without.map(|reason| format!("<p>{}</p>\n", escaped(&reason)));
-        let without: String = without.collect();
         format!(
-            "<h2>Resonances</h2>\n<p>Where the displacement lags the force by 90°: measured, and of the model at the force that was \
+            "<h2>Resonances</h2>\n<p>Where the displacement lags the force by 90° (of the bodies’ relative motion, driven on one and \
+             seen on the other: leads by 90°): measured, and of the model at the force that was \
              measured there. Expected is what the unknowns’ deviations and the scatter of the fitted runs about the model leave open. \
              The last column is the error of the acceleration’s amplitude.</p>\n{}{without}{}",
             table(
@@ -183,15 +184,11 @@ impl LapResponseReport<'_> {
     /// Resonance and damping over amplitude.
     fn backbone(&self) -> Option<String> {
         let found = self.found;
-        let measured: Vec<(f64, f64)> = {
-            let mut points: Vec<(f64, f64)> = found
-                .predictions
-                .iter()
-                .map(|row| (1e6 * row.measured.displacement_m, row.measured.frequency_hz))
-                .collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            points
-        };
+        let measured: Vec<(f64, f64)> = found
+            .measured_backbone()
+            .into_iter()
+            .map(|(amplitude_m, hz)| (1e6 * amplitude_m, hz))
+            .collect();
         let values = &found.fit.values;
         let model = (1..=POINTS).map(|n| {
             let amplitude = found.amplitude_m * n as f64 / POINTS as f64;

@@ -18,7 +18,11 @@ pub(in super::super) fn run(
     arguments: &IdentifyArguments,
     study: &StudyText,
 ) -> Result<(), CliError> {
-    let written = report_time(arguments)?;
+    let written = report_time(
+        arguments,
+        "`compare = false` beside `terms` in the study's [model], which leaves the comparison of models out; rivals are those of method \
+         \"frf-decoupling\"",
+    )?;
     let study = LapResponseStudy::of(study)?;
     let progress = Progress::new("identifying", 0);
     let found = LapResponse::of(&study, &progress)?;
@@ -74,6 +78,7 @@ pub(in super::super) fn run(
             "starts": { "tried": found.starts.0, "agreeing": found.starts.1 },
             "models": found.comparison,
             "predictions": found.predictions,
+            "unpredicted": found.unpredicted,
             "backbones": found.backbones,
             "between_runs": found.between_runs,
             "usable": against.is_empty(),
@@ -188,7 +193,7 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
             let (predicted, expected) = (row.predicted, row.interval_95);
             let optional = |value: Option<String>| value.unwrap_or_else(|| "none".to_owned());
             table.row(vec![
-                row.run.clone(),
+                found.named(row),
                 if row.left_out { "left out" } else { "fitted" }.to_owned(),
                 number(row.measured.force_n, 3),
                 format!("{:.3}", row.measured.frequency_hz),
@@ -211,9 +216,9 @@ fn summary(found: &LapResponse, study: &LapResponseStudy) -> String {
             ]);
         }
         text += &table.render();
-        for reason in found.without_interval() {
-            let _ = writeln!(text, "{reason}");
-        }
+    }
+    for reason in found.without_interval() {
+        let _ = writeln!(text, "{reason}");
     }
     if !found.backbones.is_empty() {
         text += &beside_backbones(found);

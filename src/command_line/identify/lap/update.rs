@@ -18,7 +18,10 @@ pub(in super::super) fn run(
     arguments: &IdentifyArguments,
     study: &StudyText,
 ) -> Result<(), CliError> {
-    let written = report_time(arguments)?;
+    let written = report_time(
+        arguments,
+        "a study of method \"frf-decoupling\"; a lap from frequencies has no rivals",
+    )?;
     let study = LapUpdateStudy::of(study)?;
     let progress = Progress::new("updating", study.torques.len() * study.firefly.iterations);
     let found = LapUpdate::of(&study, &progress)?;

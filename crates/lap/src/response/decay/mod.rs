@@ -4,6 +4,7 @@
 //! amplitude; its logarithm falls and turns as the mode decays and oscillates. Other modes are told from the spectrum, from beats
 //! of the amplitude, and from what the signal leaves of the record: where one is in the way, the record is refused.
 
+mod clipped;
 mod errors;
 mod in_time;
 mod motion;
@@ -50,6 +51,12 @@ const TUNINGS: usize = 3;
 pub(super) enum DecayProblem {
     /// Times do not ascend evenly.
     Uneven,
+    /// So many samples at the end of a range, the last of them at this time.
+    Clipped {
+        limit: f64,
+        samples: usize,
+        last_s: f64,
+    },
     /// Nothing stands out of the noise.
     NoMode,
     /// Several modes, with their frequencies, Hz, the highest first.
@@ -59,6 +66,7 @@ pub(super) enum DecayProblem {
         at_s: f64,
         times: f64,
         apart_hz: f64,
+        mode_hz: f64,
     },
     /// What is in the record beside the mode: its strongest frequency, and its size as a part of the mode's.
     Leaves {
@@ -81,6 +89,7 @@ pub(super) fn backbone_of(
     beside: [f64; 2],
 ) -> Result<Decay, DecayProblem> {
     let record = Record::of(samples)?;
+    clipped::refuse(samples)?;
     let spectrum = Spectrum::of(&record);
     let mode_hz = spectrum.only_mode(band_hz)?;
     let stretches = record.tuned(mode_hz, band_hz, spectrum.noise);

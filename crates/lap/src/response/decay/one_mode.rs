@@ -55,6 +55,7 @@ impl Signal<'_> {
                     times: top.z.norm() / from,
                     // from the least to the most it is half a beat
                     apart_hz: 0.5 / (top.time_s - lowest.time_s),
+                    mode_hz: self.omega / TAU,
                 });
             }
         }
@@ -172,15 +173,25 @@ impl Signal<'_> {
             let (start, end) = (plain[low], plain[high]);
             (end.1 - start.1) / (end.0 - start.0).max(f64::MIN_POSITIVE)
         };
+        let bent = |place: usize| {
+            let middle = place.clamp(1, plain.len().saturating_sub(2).max(1));
+            let Some([(start_s, start), (_, own), (end_s, end)]) =
+                plain.get(middle - 1..=middle + 1)
+            else {
+                return Complex64::ZERO;
+            };
+            let step_s = 0.5 * (end_s - start_s);
+            (end - 2.0 * own + start) / (step_s * step_s).max(f64::MIN_POSITIVE)
+        };
+        let square = self.sigma_s * self.sigma_s;
         let places = plain.iter().enumerate();
         places
             .map(|(place, &(time_s, logarithm))| {
-                // the window averages e^{λt} to exp(½ λ² σ²) of it
-                let slope = around(place);
-                (
-                    time_s,
-                    logarithm - 0.5 * slope * slope * self.sigma_s * self.sigma_s,
-                )
+                // of e^{λt + ½κt²} the window's average has the slope λ' = λ/(1 − κσ²) and bends by κ' = κ/(1 − κσ²); its
+                // logarithm is more by ½ λ'² σ²/(1 + κ'σ²) + ½ ln(1 + κ'σ²)
+                let (slope, factor) = (around(place), 1.0 + bent(place) * square);
+                let averaged = 0.5 * (slope * slope * square / factor + factor.ln());
+                (time_s, logarithm - averaged)
             })
             .collect()
     }

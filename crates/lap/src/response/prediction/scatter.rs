@@ -77,9 +77,9 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
-    /// Of the runs that were fitted.
-    pub(super) fn of(all: &[Prediction]) -> Result<Self, NoInterval> {
-        let fitted = all.iter().filter(|row| !row.left_out);
+    /// Of the runs that were fitted, about resonances of one motion.
+    pub(super) fn of<'p>(all: impl Iterator<Item = &'p Prediction>) -> Result<Self, NoInterval> {
+        let fitted = all.filter(|row| !row.left_out);
         let fitted = fitted.filter_map(|row| {
             let relative = row.predicted?.displacement_m / row.measured.displacement_m;
             Some((

@@ -2,6 +2,7 @@
 
 mod checks;
 mod noise;
+mod repeats;
 mod tables;
 
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use self::checks::{band_hz, known, terms_of};
 use self::noise::noise;
+use self::repeats::Repeats;
 use self::tables::StudyFile;
 use super::backbone::{BackboneRun, read_backbone, read_decay};
 use super::data::{SineOptions, SineRun, Use, read_sine};
@@ -66,6 +68,8 @@ pub struct LapResponseStudy {
     pub sines: Vec<SineRun>,
     /// Backbones, and free decays turned into them.
     pub backbones: Vec<BackboneRun>,
+    /// Rows that stand in the data more than once.
+    pub(in crate::response) repeats: Repeats,
     /// Remarks that go into the joint file.
     pub notes: Vec<String>,
 }
@@ -198,6 +202,7 @@ impl LapResponseStudy {
         study.every_file_once("backbone.file", fitted.map(|own| own.file.as_path()))?;
         let fitted = file.decay.iter().filter(|own| is_fitted(own.used_for));
         study.every_file_once("decay.file", fitted.map(|own| own.file.as_path()))?;
+        let mut repeats = Repeats::default();
         let sines = file.sine.into_iter().map(|table| {
             let phase_sign = match table.phase_sign {
                 None | Some(1) => 1.0,
@@ -212,7 +217,10 @@ impl LapResponseStudy {
                 range_hz,
                 is_drive_point: file.model.drive == file.model.response,
             };
-            read_sine(&study.resolved(&table.file), options)
+            let name = options.name.clone();
+            let (run, repeated) = read_sine(&study.resolved(&table.file), options)?;
+            repeats.of_table(name, repeated);
+            Ok(run)
         });
         let sines: Vec<SineRun> = sines.collect::<Result<_, LapError>>()?;
         let share = match file.model.response {
@@ -221,9 +229,12 @@ impl LapResponseStudy {
         };
         let backbones = file.backbone.into_iter().map(|table| {
             let path = study.resolved(&table.file);
+            let name = name_of(table.name, &table.file);
+            let (lines, repeated) = read_backbone(&path, share)?;
+            repeats.of_table(name.clone(), repeated);
             Ok::<_, LapError>(BackboneRun {
-                name: name_of(table.name, &table.file),
-                lines: read_backbone(&path, share)?,
+                name,
+                lines,
                 errors: None,
                 following: None,
                 recorded: None,
@@ -248,6 +259,8 @@ impl LapResponseStudy {
             })
         });
         let backbones: Vec<BackboneRun> = backbones.chain(decays).collect::<Result<_, _>>()?;
+        repeats.between_sines(study, &sines)?;
+        repeats.between_backbones(study, &backbones)?;
         let fitted = sines.iter().any(|run| run.used_for == Use::Fit)
             || backbones.iter().any(|run| run.used_for == Use::Fit);
         study.ensure(
@@ -270,6 +283,7 @@ impl LapResponseStudy {
             torque_n_m: file.torque,
             sines,
             backbones,
+            repeats,
             notes: file.notes,
         };
         study.ensure(

@@ -128,7 +128,10 @@ fn sensors_and_impacts_in_space_have_places_to_be_filled_in() {
         ],
     );
     // its keys are those of its method; what is missing are the places
-    bench.refused("identify study.toml -o o.joint.json", &["`a", "motions"]);
+    bench.refused(
+        "identify study.toml -o o.joint.json",
+        &["`a`: channels: found rank 3, expected 6"],
+    );
 }
 
 #[test]

@@ -77,12 +77,127 @@ fn a_study_is_made_of_the_files_that_are_there() {
     assert!(!bench.done("init -o -").stdout.contains("#:schema"));
 }
 
+/// A table of functions between these points, of three lines.
+fn table(responses: &str, references: &str) -> String {
+    let mut head = "frequency [Hz]".to_owned();
+    let mut count = 0;
+    for response in responses.split(' ') {
+        for reference in references.split(' ') {
+            head += &format!(
+                ",{response}/{reference} receptance real [m/N],{response}/{reference} imaginary"
+            );
+            count += 1;
+        }
+    }
+    let line = |hz: usize| format!("{hz}{}\n", ",1e-6,-1e-8".repeat(count));
+    format!("{head}\n{}{}{}", line(20), line(21), line(22))
+}
+
+#[test]
+fn sensors_and_impacts_in_space_have_places_to_be_filled_in() {
+    let bench = Bench::new();
+    let of = |node: u32| format!("{node}:+X {node}:+Y {node}:+Z");
+    let a = [of(101), of(102)].join(" ");
+    let (hits_a, hits_b) = ("151:-Z 154:+X", "251:-Z 254:+Y");
+    bench.write("a.csv", table(&a, hits_a));
+    bench.write("b.csv", table(&of(201), hits_b));
+    bench.write(
+        "c.csv",
+        table(&format!("{a} {}", of(201)), &format!("{hits_a} {hits_b}")),
+    );
+    let outcome = bench.done("init");
+    has(
+        &outcome.stdout,
+        &[
+            "part a is taken to be a.csv, part b b.csv, the assembly c.csv",
+            "places near the joint are to be filled in",
+        ],
+    );
+    has(
+        &bench.text("study.toml"),
+        &[
+            "method = \"frf-space\"",
+            "[a]\nfrf = \"a.csv\"\n# CHECK: positions in m",
+            "{ node = 101, position = [0.0, 0.0, 0.0] }",
+            "{ node = 102, position",
+            "{ dof = \"151:-Z\", position",
+            "{ dof = \"254:+Y\", position",
+            "[assembly]",
+            "[joint]",
+            "length = 0.03",
+        ],
+    );
+    // its keys are those of its method; what is missing are the places
+    bench.refused(
+        "identify study.toml -o o.joint.json",
+        &["`a`: channels: found rank 3, expected 6"],
+    );
+}
+
+#[test]
+fn what_has_the_points_of_all_is_the_assembly_of_a_chain() {
+    let bench = Bench::new();
+    let six = |node: u32| {
+        ["X", "Y", "Z", "RX", "RY", "RZ"]
+            .map(|axis| format!("{node}:+{axis}"))
+            .join(" ")
+    };
+    let square = |points: &str| table(points, points).replace(" [m/N]", "");
+    let parts = [
+        six(14),
+        [six(20), six(23)].join(" "),
+        six(30) + " 33:+X 33:+Y",
+    ];
+    for (name, points) in ["a.csv", "b.csv", "c.csv"].into_iter().zip(&parts) {
+        bench.write(name, square(points));
+    }
+    bench.write("whole.csv", square(&parts.join(" ")));
+    has(
+        &bench.done("init").stdout,
+        &["part a is taken to be a.csv, part b b.csv, part c c.csv, the assembly whole.csv"],
+    );
+    has(
+        &bench.text("study.toml"),
+        &[
+            "[a]\nfrf = \"a.csv\"\ninterface = 14 ",
+            "[b]\nfrf = \"b.csv\"\ninterface = 20 ",
+            "far = { interface = 23 }",
+            "interface = 30 ",
+            "responses = [\"33:+X\", \"33:+Y\"]\nreferences = [\"33:+X\", \"33:+Y\"]",
+            "[[joint]]                             # a to b",
+            "[[joint]]                             # b to c",
+            "budget = \"none\"",
+        ],
+    );
+    let shown = bench.done("show study.toml").stdout;
+    has(&shown, &["study of method \"frf-space\""]);
+}
+
+#[test]
+fn the_rotation_of_a_first_study_is_not_about_its_translation() {
+    let bench = Bench::new();
+    for name in ["a.csv", "b.csv", "joined.csv"] {
+        bench.write(
+            name,
+            table("2:+X 2:+RX 2:+RY", "2:+X").replace(" [m/N]", ""),
+        );
+    }
+    bench.done("init");
+    has(
+        &bench.text("study.toml"),
+        &["joint = { y = \"2:+X\", theta = \"2:+RY\" }"],
+    );
+}
+
 #[test]
 fn a_folder_without_measurements_is_said_to_be_one() {
     let bench = Bench::new();
     bench.refused(
         "init",
-        &["found no such file", "expected measured functions"],
+        &[
+            "found no file of functions or modes in it",
+            "expected measured functions",
+        ],
     );
     bench.write("a.uff", b"    -1\n    58\nbroken");
     bench.write("b.uff", ASSEMBLY);

@@ -152,7 +152,8 @@ class Rig:
         names = [self.names(0), self.names(1)]
         names.append(tuple(names[0][n] + names[1][n] for n in range(2)))
         for file, frf, (response, reference) in zip("abc", functions, names):
-            np.savez(folder / f"{file}.npz", frequency=frequencies, frf=frf, response=response, reference=reference, quantity="receptance", axes="response,reference,frequency")
+            np.savez(folder / f"{file}.npz", frequency=frequencies, frf=frf, response=response, reference=reference, quantity="receptance", unit="m/N",
+                     axes="response,reference,frequency")
         text = 'method = "frf-space"\nname = "rig"\n' + more
         if noise:
             text += f"[noise]\nrelative = {noise}\n"

@@ -271,7 +271,7 @@ def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impac
         ("length = 0.03", "length = -1", ["joint.length", "found -1", "size of the interface"]),
         ('model = "full"', 'model = "two-bolts"', ["joint.line", "direction from one bolt"]),
         ('model = "full"', 'model = "spring"', ["spring", "full"]),
-        ('budget = "none"', "budget = { gain = 0 }", ["budget.gain", "found 0", "none"]),
+        ('budget = "none"', "budget = { gain = -0.1 }", ["budget.gain", "found -0.1", "exact"]),
         ('budget = "none"', 'budget = "none"\nnoise = { a = 0.01 }', ["noise.a", "without noise.relative"]),
         ('budget = "none"', 'budget = "none"\nnoise = { relative = 0.01, b = -1 }', ["noise.b", "found -1"]),
         ('[a]\nfrf = "a.npz"', '[a]\nfrf = "a.npz"\ninterface = 3', ["a.interface", "beside sensors or impacts"]),

@@ -1,5 +1,7 @@
 """The error budget against a laboratory that makes mistakes (rig.py), on the real program."""
 
+import subprocess
+
 import bolted
 import numpy as np
 import pytest
@@ -123,3 +125,28 @@ def test_two_bolts_are_found_when_everything_is_a_little_wrong(program, tmp_path
     z = bolted.a_little_wrong(program, tmp_path, draw, None, kind, is_placed)
     assert z is not None
     assert abs(z).max() < 5, z
+
+
+def said(program, study):
+    return subprocess.run(
+        [program, "identify", study, "-o", study.parent / "joint.json"], capture_output=True, text=True, encoding="utf-8"
+    )
+
+
+def test_groups_that_hardly_matter_are_named(program, tmp_path):
+    """Every group that takes part is a column of the table, or is named below it."""
+    study = rig.write(tmp_path, rig.test_data(Mistakes(), 0.01, 1), 0.01, budget="{ delay = 1e-9, frequency = 1e-7 }")
+    groups = run(program, study).budget["shares"]["groups"]
+    small = [group["group"] for group in groups if max(group["parts"]) <= 0.02]
+    lines = said(program, study).stdout.splitlines()
+    named = [line.split(": ")[1].split(", ") for line in lines if line.startswith("less than 2 % of every variance: ")]
+    assert small and named == [small]
+    header = next(line for line in lines if "± with the budget" in line)
+    assert all(group["group"] in header for group in groups if group["group"] not in small)
+
+
+def test_noise_in_per_cent_is_told(program, tmp_path):
+    sets = rig.test_data(Mistakes(), 0.01, 1)
+    assert "noise.relative: the stated noise" not in said(program, rig.write(tmp_path, sets, 0.01)).stderr
+    told = said(program, rig.write(tmp_path, sets, 1)).stderr
+    assert "noise.relative: the stated noise, 100 % of each function, is" in told, told

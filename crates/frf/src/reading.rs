@@ -60,6 +60,17 @@ impl FrfReading {
         self.statements.have_units()
     }
 
+    /// What its user is told where nobody states the units.
+    #[must_use]
+    pub fn units_warning(&self) -> Option<String> {
+        (!self.units_are_stated()).then(|| {
+            format!(
+                "{}: states no units, so SI units are assumed; state units beside frf if they are others",
+                self.path.display()
+            )
+        })
+    }
+
     /// What was read, and by whose word the values are what they were taken for.
     #[must_use]
     pub fn summary(&self) -> FileSummary {

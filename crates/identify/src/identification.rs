@@ -261,6 +261,10 @@ pub fn identify_and_draw(
     }
     let provenance = provenance::of(study, &estimate, &from_modes, watch)?;
     warnings.extend(estimate.warnings.iter().cloned());
+    warnings.extend(reliability::of_stated_noise(
+        &study.noise,
+        &estimate.assessment,
+    ));
     let large = reliability::warning(&estimate, study.model, relative_rms, unexplained);
     warnings.extend(large);
     let first = fitted.remove(0);

@@ -2,12 +2,14 @@
 //! whether the model has anything to do with the measurement. What is merely worse than it could be is warned of instead.
 
 use bolted_joint_frf::structure::ComplexMatrix;
+use bolted_joint_study::overstated_noise;
 
 use super::assessment::Assessment;
 use super::identification::{AssemblyFit, Identification};
 use super::layout::Bolts;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointModel;
+use super::noise::{Noise, StatedLevel};
 use super::observed::Observed;
 use super::slips::{FoundSlip, are_certain};
 
@@ -127,6 +129,18 @@ fn is_known_noise(assessment: &Assessment) -> bool {
         assessment.noise_is_known && chi.is_some_and(|chi| chi <= MOST_OF_COHERENCE)
     };
     assessment.is_certain() && (assessment.noise_is_stated || is_of_coherence())
+}
+
+/// A warning of a part of the values that is stated as noise and far above the residual; of a floor nobody knows its size.
+pub(super) fn of_stated_noise(noise: &Noise, assessment: &Assessment) -> Option<String> {
+    let StatedLevel { relative, floor } = noise.assembly;
+    let relative = relative.filter(|_| !assessment.noise_is_known)?;
+    let has_floor = [floor.yy, floor.ytheta, floor.thetatheta]
+        .into_iter()
+        .flatten()
+        .any(|floor| floor > 0.0);
+    let chi = assessment.reduced_chi_squared.filter(|_| !has_floor)?;
+    overstated_noise(relative, chi)
 }
 
 /// A warning of a residual that is large and not noise, though not so large that nothing is to be relied on.

@@ -6,11 +6,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use bolted_joint_frf::structure::ModalModel;
-use bolted_joint_frf::{Dof, ReadOptions, read_frfs};
+use bolted_joint_frf::{Direction, Dof, ReadOptions, read_frfs};
 use thiserror::Error;
 
 use crate::FileKind;
 use crate::shown::some;
+
+mod space;
 
 /// Points that a comment lists at most.
 const LISTED: usize = 24;
@@ -55,15 +57,27 @@ pub enum DraftError {
 struct Candidate {
     name: String,
     is_modal: bool,
-    points: BTreeSet<Dof>,
+    responses: BTreeSet<Dof>,
+    references: BTreeSet<Dof>,
     /// Lowest and highest frequency, Hz.
     band_hz: [f64; 2],
 }
 
-/// A study for the files of a folder: of two parts, and of both together.
+impl Candidate {
+    /// Where something responds or is excited.
+    fn points(&self) -> BTreeSet<Dof> {
+        self.responses.union(&self.references).copied().collect()
+    }
+
+    fn contains(&self, other: &Self) -> bool {
+        other.responses.is_subset(&self.responses) && other.references.is_subset(&self.references)
+    }
+}
+
+/// A study for the files of a folder: of two parts, and of both together; or in space of a chain of parts, and of them all.
 ///
-/// Which file is which is told by names: `a`, `b`, and `assembly`, `joined` or `c`; else the one that has to be functions and
-/// comes last by name is the assembly.
+/// Which file is which is told by names: `a`, `b`, and `assembly`, `joined` or `c`; of functions in space by what they contain:
+/// the points of the assembly are those of all parts. Else the one that has to be functions and comes last by name is the assembly.
 ///
 /// # Errors
 /// [`DraftError`] if the folder cannot be read, or has fewer than three such files.
@@ -86,37 +100,37 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
             None => {}
         }
     }
-    let is_assembly = |own: &Candidate| {
-        let name = own.name.to_lowercase();
-        !own.is_modal
-            && ["assembly", "joined", "bolted", "coupled", "c."]
-                .iter()
-                .any(|word| name.starts_with(word))
-    };
-    let place = found.iter().position(is_assembly);
-    let place = place.or_else(|| found.iter().rposition(|own| !own.is_modal));
+    let is_in_space = found.iter().any(space::is_in_space);
+    let place = assembly(&found, is_in_space);
     let (Some(place), true) = (place, found.len() >= 3) else {
         let names: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
         return Err(DraftError::TooFew {
             path: folder.to_owned(),
             found: match names.as_slice() {
-                [] => "no such file".to_owned(),
+                [] => "no file of functions or modes in it".to_owned(),
                 names => names.join(", "),
             },
             refused,
         });
     };
     let assembly = found.remove(place);
-    let [a, b, others @ ..] = found.as_slice() else {
+    let most = if is_in_space { space::MOST_PARTS } else { 2 };
+    let others = found.split_off(most.min(found.len()));
+    let [a, b, ..] = found.as_slice() else {
         return Err(DraftError::TooFew {
             path: folder.to_owned(),
             found: assembly.name,
             refused,
         });
     };
+    let parts = found.iter().zip('a'..);
+    let parts: Vec<String> = parts
+        .map(|(own, letter)| format!("{letter} {}", own.name))
+        .collect();
     let mut notes = vec![format!(
-        "part a is taken to be {}, part b {}, the assembly {}",
-        a.name, b.name, assembly.name
+        "part {}, the assembly {}",
+        parts.join(", part ").replacen(' ', " is taken to be ", 1),
+        assembly.name
     )];
     if !others.is_empty() {
         let names = others.iter().map(|own| own.name.as_str());
@@ -128,11 +142,36 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     if !refused.is_empty() {
         notes.push(format!("not read: {}", refused.trim_start_matches("; ")));
     }
-    notes.push("the points of the joint are guesses: look for CHECK in the study".to_owned());
+    notes.push(match is_in_space {
+        true => "places near the joint are to be filled in: look for CHECK in the study".to_owned(),
+        false => "the points of the joint are guesses: look for CHECK in the study".to_owned(),
+    });
     Ok(Draft {
-        text: text(a, b, &assembly),
+        text: match is_in_space {
+            true => space::text(&found, &assembly),
+            false => text(a, b, &assembly),
+        },
         notes,
     })
+}
+
+/// Which of the files is the assembly.
+fn assembly(found: &[Candidate], is_in_space: bool) -> Option<usize> {
+    let named = |words: &[&str]| {
+        found.iter().position(|own| {
+            let name = own.name.to_lowercase();
+            !own.is_modal && words.iter().any(|word| name.starts_with(word))
+        })
+    };
+    let of_all = || {
+        let of_all = |own: &Candidate| found.iter().all(|other| own.contains(other));
+        let place = found.iter().position(|own| !own.is_modal && of_all(own));
+        place.filter(|_| is_in_space)
+    };
+    named(&["assembly", "asm", "joined", "bolted", "coupled"])
+        .or_else(of_all)
+        .or_else(|| named(&["c."]))
+        .or_else(|| found.iter().rposition(|own| !own.is_modal))
 }
 
 /// `None` for a file of another kind.
@@ -147,7 +186,8 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
                 Candidate {
                     name,
                     is_modal: false,
-                    points: set.functions().flat_map(|own| [own.0, own.1]).collect(),
+                    responses: set.functions().map(|own| own.0).collect(),
+                    references: set.functions().map(|own| own.1).collect(),
                     band_hz: [hz[0], hz[hz.len() - 1]],
                 }
             }))
@@ -161,10 +201,12 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
                         .iter()
                         .map(|mode| mode.frequency_hz)
                         .fold(0.0, f64::max);
+                    let points: BTreeSet<Dof> = model.points().iter().copied().collect();
                     Candidate {
                         name,
                         is_modal: true,
-                        points: model.points().iter().copied().collect(),
+                        responses: points.clone(),
+                        references: points,
                         band_hz: [0.0, last],
                     }
                 }),
@@ -174,13 +216,8 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
 }
 
 fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
-    let [from, to] = [a, b, assembly]
-        .iter()
-        .fold([0.0, f64::INFINITY], |[from, to]: [f64; 2], own| {
-            [from.max(own.band_hz[0]), to.min(own.band_hz[1])]
-        });
     let points: Vec<String> = assembly
-        .points
+        .points()
         .iter()
         .map(|own| format!("\"{own}\""))
         .collect();
@@ -191,8 +228,7 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
          [a]                                   # the first part\n{}\n[b]                                   # the second part\n{}\n\
          [assembly]                            # both, bolted together\nfrf = {:?}\n\
          points = [{}]   # CHECK: points of part b (points_on_a for those of a)\n\n\
-         [joint]\n{}\n\n\
-         [frequency]                           # Hz; what all three files have\nfrom = {}\nto = {}\n",
+         [joint]\n{}\n\n{}",
         stem(a),
         stem(b),
         part(a),
@@ -200,6 +236,17 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
         assembly.name,
         points.join(", "),
         model(&[a, b]),
+        frequency(&[a, b, assembly], "three"),
+    )
+}
+
+/// The band that all files have.
+fn frequency(all: &[&Candidate], many: &str) -> String {
+    let [from, to] = (all.iter()).fold([0.0, f64::INFINITY], |[from, to]: [f64; 2], own| {
+        [from.max(own.band_hz[0]), to.min(own.band_hz[1])]
+    });
+    format!(
+        "[frequency]                           # Hz; what all {many} files have\nfrom = {}\nto = {}\n",
         toml_float(from),
         toml_float(to),
     )
@@ -207,7 +254,7 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
 
 /// The joint model that these parts have functions for.
 fn model(parts: &[&Candidate]) -> String {
-    let turns = |own: &&Candidate| own.points.iter().any(|dof| dof.direction().is_rotation());
+    let turns = |own: &&Candidate| own.points().iter().any(|dof| dof.direction().is_rotation());
     if parts.iter().all(turns) {
         "model = \"full\"                        # or \"translation\", \"diagonal\"".to_owned()
     } else {
@@ -217,25 +264,34 @@ fn model(parts: &[&Candidate]) -> String {
 
 /// The file of a part, and where the joint is on it.
 fn part(own: &Candidate) -> String {
-    let of = |is_rotation: bool| {
-        own.points
-            .iter()
-            .find(|dof| dof.direction().is_rotation() == is_rotation)
-    };
+    let points = own.points();
+    let y = points.iter().find(|dof| !dof.direction().is_rotation());
+    let theta = points.iter().find(|dof| is_turn_beside(**dof, y.copied()));
     let key = if own.is_modal { "modal" } else { "frf" };
-    let turn = of(true).map_or_else(String::new, |dof| format!(", theta = \"{dof}\""));
-    let lever = match of(true) {
+    let turn = theta.map_or_else(String::new, |dof| format!(", theta = \"{dof}\""));
+    let lever = match theta {
         Some(_) => "",
         None => {
             "# CHECK: or theta = { points = [\"…\", \"…\", \"…\"], spacing = 0.015 } of three sensors in a row\n"
         }
     };
-    let place = of(false).map_or_else(String::new, Dof::to_string);
+    let place = y.map_or_else(String::new, Dof::to_string);
     format!(
         "{key} = {:?}\njoint = {{ y = \"{place}\"{turn} }}   # CHECK: where the joint is; points: {}\n{lever}",
         own.name,
-        some(&own.points, LISTED)
+        some(&points, LISTED)
     )
+}
+
+/// Whether a rotation goes with what bends along `y`: one about the same axis is a twist.
+fn is_turn_beside(dof: Dof, y: Option<Dof>) -> bool {
+    let about = match dof.direction() {
+        Direction::RX => Direction::X,
+        Direction::RY => Direction::Y,
+        Direction::RZ => Direction::Z,
+        _ => return false,
+    };
+    y.is_none_or(|y| y.direction() != about)
 }
 
 fn stem(own: &Candidate) -> String {

@@ -63,7 +63,7 @@ pub enum SpaceError {
         mirrored: f64,
     },
     /// A matrix of a joint gives energy away.
-    #[error("the joint is not passive: found {condition} = {found}, expected 0 or more")]
+    #[error("the joint is not passive: found {condition} = {found:.3e}, expected 0 or more")]
     NotPassive {
         /// What must not be negative.
         condition: &'static str,

@@ -1,18 +1,37 @@
 //! What would make the places of sensors and impacts better.
 
+use bolted_joint_study::overstated_noise;
 use bolted_joint_virtual_point::{Role, VirtualPoint, Weights};
 
+use crate::identification::SpatialIdentification;
+use crate::problem::Level;
 use crate::side::{Interface, Side};
 use crate::study::SpatialStudy;
 
 impl SpatialStudy {
-    /// What the places of sensors and impacts are warned of, and functions that tell nothing; nothing where each interface has enough of
-    /// them in a good arrangement.
+    /// What had to be assumed of the files, what the places of sensors and impacts are warned of, and functions that tell nothing;
+    /// nothing where the files state their units and each interface has enough places in a good arrangement.
     #[must_use]
     pub fn advice(&self) -> Vec<String> {
-        let mut all = advice(&self.problem.sides);
+        let mut all = self.assumed.clone();
+        all.extend(advice(&self.problem.sides));
         all.extend(of_zero_functions(self.zero_functions, self.functions()));
         all
+    }
+}
+
+impl SpatialIdentification {
+    /// What is said of stated noise that is far above the residual.
+    #[must_use]
+    pub fn overstated_noise(&self, study: &SpatialStudy) -> Option<String> {
+        of_noise(study.level, self.reduced_chi_squared)
+    }
+}
+
+pub(crate) fn of_noise(level: Level, reduced_chi_squared: Option<f64>) -> Option<String> {
+    match level {
+        Level::Relative(part) => overstated_noise(part, reduced_chi_squared?),
+        Level::OfResiduals => None,
     }
 }
 

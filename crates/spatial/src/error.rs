@@ -54,8 +54,12 @@ pub enum SpatialError {
     NoStart,
     /// No start leads to a minimum, and where the search ended the functions say nothing of some unknowns.
     #[error(
-        "none of the {tried} starts of the search led to a joint that explains the functions; check directions, positions, signs and \
-         gains of the set-up (warnings name what fits least), or state larger errors of it in budget"
+        "{} led to a joint that explains the functions; check directions, positions, signs and gains of the set-up \
+         (warnings name what fits least), or state larger errors of it in budget",
+        match tried {
+            1 => "the only start of the search has not".to_owned(),
+            tried => format!("none of the {tried} starts of the search has"),
+        }
     )]
     NothingFound {
         /// Starts.

@@ -287,8 +287,9 @@ impl SpatialStudy {
             frequency_hz: problem.frequency_hz.clone(),
             fits: strongest(shown, &alone.unknowns, &alone.kept)?,
             reduced_chi_squared,
-            budget_used: (errors > 0)
-                .then(|| squares_of_errors(problem, &best.unknowns) / errors as f64),
+            budget_used: (errors > 0).then(|| {
+                squares_of_errors(problem, &best.unknowns) / problem.open_error_count() as f64
+            }),
             starts: *starts,
             groups: spread.groups.iter().map(group).collect(),
             errors: problem.found_errors(&best.unknowns, &spread.together),

@@ -10,6 +10,7 @@
 
 mod advice;
 mod assembled;
+mod budget;
 mod chain;
 mod compliant;
 mod consistency;
@@ -18,6 +19,7 @@ mod error;
 mod estimate;
 mod fit;
 mod fits;
+mod functions;
 mod hidden;
 mod identification;
 mod joint_file;

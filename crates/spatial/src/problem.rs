@@ -7,6 +7,7 @@ use bolted_joint_virtual_point::Tolerances;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use crate::budget::EXACT;
 use crate::error::SpatialError;
 use crate::links::{Links, Sought};
 use crate::side::{Side, Transformations};
@@ -105,6 +106,19 @@ impl Problem {
     /// Of both.
     pub(crate) fn error_count(&self) -> usize {
         self.error_counts().iter().sum()
+    }
+
+    /// Those of them that are not exact.
+    pub(crate) fn open_error_count(&self) -> usize {
+        let open = |side: &Side| {
+            let all = side.parameters();
+            let all = all.iter().filter(|(_, one)| {
+                let own = self.tolerances.map(|all| all.of(one.place, one.change));
+                own.is_some_and(|own| own > EXACT * Tolerances::TYPICAL.of(one.place, one.change))
+            });
+            all.count()
+        };
+        self.sides.iter().map(open).sum()
     }
 
     /// All unknowns.

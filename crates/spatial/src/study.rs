@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::str::FromStr as _;
 
-use bolted_joint_frf::{Direction, Dof, FrfReading, FrfSet, ReadOptions, Sign, read_frfs};
+use bolted_joint_frf::{Direction, Dof, FrfSet, Sign};
 use bolted_joint_joint::InputFile;
 use bolted_joint_space::{Axes, Dof as Motion, JointModel, Mirrors, Motions, Parametrisation};
-use bolted_joint_study::{LineChoice, Paths, StudyError, StudyText, schema};
-use bolted_joint_virtual_point::{Sensor, Tolerance, Tolerances};
+use bolted_joint_study::{StudyError, StudyText, schema};
+use bolted_joint_virtual_point::Sensor;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::chain::ChainStudy;
@@ -15,21 +15,13 @@ use crate::level::size;
 use crate::links::Links;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
-use crate::tables::{
-    BudgetTable, DeviationsTable, JointTable, ModelName, NoiseTable, SensorTable, StudyFile,
-};
+use crate::tables::{JointTable, ModelName, NoiseTable, SensorTable, StudyFile};
 
 /// How far from an interface a sensor, an impact or a bolt of it is at most, m.
 pub(crate) const FARTHEST_M: f64 = 3.0;
 
 /// Size of a function in parts of the largest one that is rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// A standard deviation of the set-up that is larger is in another unit.
-const MOST_DEVIATION: f64 = 1.0;
-
-/// Frequencies that are the same, in parts.
-const SAME: f64 = 1e-6;
 
 /// A checked study, with its functions.
 #[derive(Clone, Debug)]
@@ -50,6 +42,8 @@ pub struct SpatialStudy {
     pub noise: [f64; 2],
     /// Functions of the assembly that are left out since they are zero.
     pub(crate) zero_functions: usize,
+    /// What had to be assumed of the files.
+    pub(crate) assumed: Vec<String>,
     pub(crate) problem: Problem,
     /// What the interfaces have.
     pub(crate) motions: Motions,
@@ -96,8 +90,9 @@ impl SpatialStudy {
             level: chain.level,
             noise: chain.noise,
             zero_functions,
+            assumed: chain.assumed,
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, &sides)?,
+                tolerances: reader.tolerances(&file.budget, &sides, &chain.parts)?,
                 sides,
                 frequency_hz,
                 observed,
@@ -139,6 +134,12 @@ pub(crate) fn motions(study: &StudyText, list: Option<&[String]>) -> Result<Moti
     let Some(list) = list else {
         return Ok(Motions::ALL);
     };
+    study.ensure(
+        !list.is_empty(),
+        "motions",
+        "an empty list",
+        "1 or more of x, y, z, rx, ry, rz",
+    )?;
     let mut dofs = Vec::new();
     for (place, name) in list.iter().enumerate() {
         let key = format_args!("motions[{place}]").to_string();
@@ -159,26 +160,6 @@ pub(crate) fn motions(study: &StudyText, list: Option<&[String]>) -> Result<Moti
 }
 
 impl Reader<'_> {
-    pub(crate) fn functions(
-        &self,
-        key: &str,
-        paths: &Paths,
-        lines: &LineChoice,
-    ) -> Result<FrfSet, StudyError> {
-        let readings = paths
-            .iter()
-            .map(|path| read_frfs(self.study.resolved(path), &ReadOptions::default()))
-            .collect::<Result<_, _>>();
-        let reading = readings.and_then(FrfReading::joined);
-        let set = reading
-            .and_then(FrfReading::into_set)
-            .map_err(StudyError::of_file)?;
-        let [from_hz, to_hz] = lines.range_hz;
-        set.restricted_to(from_hz, to_hz)
-            .and_then(|set| set.thinned(&lines.bands_hz, lines.every))
-            .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
-    }
-
     /// Noise of the substructures.
     pub(crate) fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
         let of = |key: &str, given: Option<f64>| {
@@ -198,29 +179,6 @@ impl Reader<'_> {
             Ok::<f64, StudyError>(part)
         };
         Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])
-    }
-
-    pub(crate) fn same_lines(
-        &self,
-        key: &str,
-        found: &[f64],
-        expected: &[f64],
-    ) -> Result<(), StudyError> {
-        let are_same = found.len() == expected.len()
-            && found
-                .iter()
-                .zip(expected)
-                .all(|(one, other)| (one - other).abs() <= SAME * other.abs());
-        let ends = |all: &[f64]| match (all.first(), all.last()) {
-            (Some(first), Some(last)) => format!("{} lines from {first} to {last} Hz", all.len()),
-            _ => "no lines".to_owned(),
-        };
-        self.study.ensure(
-            are_same,
-            key,
-            ends(found),
-            format_args!("the lines of the other files, {}", ends(expected)),
-        )
     }
 
     /// The noise of the assembly's functions.
@@ -431,43 +389,6 @@ impl Reader<'_> {
                 false => all.within(self.motions),
             })
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
-    }
-
-    pub(crate) fn tolerances(
-        &self,
-        table: &BudgetTable,
-        sides: &[Side; 2],
-    ) -> Result<Option<Tolerances>, StudyError> {
-        let DeviationsTable {
-            position,
-            rotation,
-            gain,
-        } = match table {
-            BudgetTable::None => return Ok(None),
-            BudgetTable::Deviations(own) => *own,
-        };
-        let value = |key: &str, given: Option<f64>, typical: f64| {
-            let value = given.unwrap_or(typical);
-            let expected =
-                "a standard deviation above 0, or budget = \"none\" for a set-up that is exact";
-            let key = format_args!("budget.{key}");
-            self.study.positive(key, value, expected)?;
-            let expected = "at most 1: a gain of 0.05 is 5 %, positions are in m, rotations in rad";
-            self.study
-                .ensure(value <= MOST_DEVIATION, key, value, expected)?;
-            Ok::<f64, StudyError>(value)
-        };
-        let tolerance = Tolerance {
-            position_m: value("position", position, Tolerance::TYPICAL.position_m)?,
-            rotation_rad: value("rotation", rotation, Tolerance::TYPICAL.rotation_rad)?,
-            gain: value("gain", gain, Tolerance::TYPICAL.gain)?,
-        };
-        // whether anything about a set-up can be wrong
-        let has_places = sides.iter().any(|side| !side.parameters().is_empty());
-        Ok(has_places.then_some(Tolerances {
-            sensors: tolerance,
-            impacts: tolerance,
-        }))
     }
 }
 

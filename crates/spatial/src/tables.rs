@@ -3,7 +3,10 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use bolted_joint_study::{FrequencyTable, Method, OneOrMore, Paths, one_or_more_tables};
+use bolted_joint_frf::Quantity;
+use bolted_joint_study::{
+    Deviation, FrequencyTable, Method, OneOrMore, Paths, UnitsTable, one_or_more_tables,
+};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -50,6 +53,9 @@ fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointTable>,
 pub(crate) struct PartTable {
     /// Measured or computed functions.
     pub(crate) frf: Option<Paths>,
+    /// What `frf` holds, where the file does not say.
+    pub(crate) quantity: Option<Quantity>,
+    pub(crate) units: Option<UnitsTable>,
     /// Modes.
     pub(crate) modal: Option<PathBuf>,
     /// Computed.
@@ -182,6 +188,9 @@ pub(crate) struct ImpactTable {
 pub(crate) struct AssemblyTable {
     /// Left out while nothing is measured.
     pub(crate) frf: Option<Paths>,
+    /// What `frf` holds, where the file does not say.
+    pub(crate) quantity: Option<Quantity>,
+    pub(crate) units: Option<UnitsTable>,
     /// Which of the DOFs will be measured; all if left out. Of a plan alone.
     pub(crate) responses: Option<Vec<String>>,
     pub(crate) references: Option<Vec<String>>,
@@ -308,10 +317,10 @@ impl<'de> Deserialize<'de> for BudgetTable {
 #[serde(deny_unknown_fields)]
 pub(crate) struct DeviationsTable {
     /// m.
-    pub(crate) position: Option<f64>,
+    pub(crate) position: Option<Deviation>,
     /// rad.
-    pub(crate) rotation: Option<f64>,
-    pub(crate) gain: Option<f64>,
+    pub(crate) rotation: Option<Deviation>,
+    pub(crate) gain: Option<Deviation>,
 }
 
 impl Default for BudgetTable {

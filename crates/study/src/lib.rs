@@ -17,11 +17,13 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod deviation;
 mod error;
 mod kind;
 mod lines;
 mod method;
 mod named;
+mod noise;
 mod origin;
 mod paths;
 mod plausible;
@@ -29,15 +31,19 @@ pub mod schema;
 mod stated;
 mod tables;
 mod text;
+mod units;
 
+pub use deviation::Deviation;
 pub use error::StudyError;
 pub use kind::TextKind;
 pub use lines::LineChoice;
 pub use method::Method;
 pub use named::NamedFile;
+pub use noise::overstated_noise;
 pub use origin::{input_file, name_in, provenance};
 pub use paths::Paths;
 pub use plausible::BeamNumber;
 pub use stated::{Stated, StatedDeviation};
 pub use tables::{FrequencyTable, OneOrMore, UncertaintyTable, one_or_more_tables};
 pub use text::StudyText;
+pub use units::UnitsTable;

@@ -90,6 +90,12 @@ impl Sensor {
     pub fn channels(&self) -> usize {
         self.0.gains.len()
     }
+
+    /// Where it sits, from the virtual point, m.
+    #[must_use]
+    pub fn position_m(&self) -> Vector3<f64> {
+        self.0.position_m
+    }
 }
 
 /// A hit of the hammer near the interface.
@@ -108,6 +114,12 @@ impl Impact {
         gain: f64,
     ) -> Result<Self, VirtualPointError> {
         Body::new(position_m, vec![direction], vec![gain]).map(Self)
+    }
+
+    /// Where it hits, from the virtual point, m.
+    #[must_use]
+    pub fn position_m(&self) -> Vector3<f64> {
+        self.0.position_m
     }
 }
 

@@ -18,12 +18,8 @@ pub(super) fn budget(found: &Identification) -> String {
         return String::new();
     };
     let bolts = found.bolts.with_own_joint();
-    let groups: Vec<_> = systematic
-        .shares
-        .groups
-        .iter()
-        .filter(|(_, parts)| parts.iter().any(|part| *part > WORTH_NAMING))
-        .collect();
+    let (groups, others): (Vec<_>, Vec<_>) = (systematic.shares.groups.iter())
+        .partition(|(_, parts)| parts.iter().any(|part| *part > WORTH_NAMING));
     let mut header = vec!["", "± noise alone", "± with the budget"];
     header.extend(groups.iter().map(|(group, _)| group.name()));
     header.push("unit");
@@ -46,6 +42,15 @@ pub(super) fn budget(found: &Identification) -> String {
         systematic.causes.len(),
         table.render()
     );
+    if let [_, ..] = others[..] {
+        let names: Vec<&str> = others.iter().map(|(group, _)| group.name()).collect();
+        let _ = writeln!(
+            text,
+            "less than {} of every variance: {}",
+            percent(WORTH_NAMING),
+            names.join(", ")
+        );
+    }
     if let Some((group, part)) = systematic.largest_groups().first() {
         let _ = writeln!(
             text,

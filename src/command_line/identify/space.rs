@@ -28,7 +28,19 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
             return Err(CliError::option(option, "it", expected));
         }
     }
-    if joints_sought(study)? != 1 {
+    let sought = joints_sought(study)?;
+    if sought != 1 {
+        for (option, is_given) in [
+            ("--report", arguments.report.is_some()),
+            ("--figure", arguments.figure.is_some()),
+        ] {
+            if is_given {
+                let found = format_args!("it with {sought} joints that are sought").to_string();
+                let expected = "a study that seeks one joint: of several there are joint files alone, which `bolted-joint show` and \
+                                `bolted-joint compare` tell more of";
+                return Err(CliError::option(option, found, expected));
+            }
+        }
         return chain::run(arguments, study);
     }
     let written = arguments.report.as_ref();
@@ -45,6 +57,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     drop(progress);
     warn(&found.warnings);
     warn(not_determined(&found).as_slice());
+    warn(found.overstated_noise(&study).as_slice());
     let file = found.joint_file(&study);
     let text = file.to_json()?;
     let mut outputs = Outputs::new();

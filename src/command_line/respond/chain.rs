@@ -45,6 +45,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
     let picture = Picture::asked(arguments)?;
     let text = study;
     let study = ChainStudy::of(text, arguments.step)?;
+    warn(study.assumed());
     let answers = study.answers()?;
     let exact = answers.set()?;
     let measured = match noise {

@@ -25,8 +25,13 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-/// The first letter in upper case.
+/// The first letter in upper case, where the text begins with a word: a path, a symbol or a key is another one in capitals.
 pub fn capitalised(text: &str) -> String {
+    let first = text.split(' ').next().unwrap_or_default();
+    let word = first.trim_end_matches([',', ';']);
+    if !word.chars().all(|c| c.is_lowercase() || c == '-') {
+        return text.to_owned();
+    }
     let mut letters = text.chars();
     letters
         .next()
@@ -113,6 +118,8 @@ fn written(value: f64, digits: usize, without_zeros: bool) -> String {
         } else {
             text
         };
+        let is_zero = !text.contains(|c: char| c.is_ascii_digit() && c != '0');
+        let text = text.strip_prefix('-').filter(|_| is_zero).unwrap_or(text);
         text.replace('-', "−")
     };
     match exponent.parse::<i32>() {
@@ -239,8 +246,30 @@ mod tests {
             (1.0 / 3.0, "0.333333"),
             (999_999.99, "1 × 10<sup>6</sup>"),
             (100.0, "100"),
+            (-0.0, "0"),
         ] {
             assert_eq!(number(value), expected);
+        }
+        assert_eq!(shown(-1e-3, 3), "−0.001");
+    }
+
+    #[test]
+    fn what_is_no_word_keeps_its_first_letter() {
+        for (text, expected) in [
+            ("a point is missing", "A point is missing"),
+            ("positions, not gains", "Positions, not gains"),
+            ("re-made", "Re-made"),
+            ("χ² is 3", "χ² is 3"),
+            (
+                "w/pl/a_fd.csv: states no units",
+                "w/pl/a_fd.csv: states no units",
+            ),
+            ("c_ytheta = 3 has", "c_ytheta = 3 has"),
+            ("noise.relative: too much", "noise.relative: too much"),
+            ("a: rank 5", "a: rank 5"),
+            ("", ""),
+        ] {
+            assert_eq!(capitalised(text), expected);
         }
     }
 }

@@ -50,12 +50,7 @@ impl Reader<'_> {
         for path in &file.coherence {
             reading = reading.with_coherences_of(self.one(path, &options)?)?;
         }
-        if !reading.units_are_stated() {
-            self.warnings.push(format!(
-                "{}: states no units, so SI units are assumed; state units beside frf if they are others",
-                file.path.display()
-            ));
-        }
+        self.warnings.extend(reading.units_warning());
         if !reading.coherences.is_empty() && reading.averages().is_none() {
             self.warnings.push(format!(
                 "{}: coherence is not used, since the number of averages is not known; state averages beside frf",

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{Deviation, StudyError, StudyText};
 use bolted_joint_systematic::Budget;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
@@ -34,10 +34,6 @@ pub(super) struct BudgetTable {
     fd_stiffness: Option<Deviation>,
 }
 
-/// A standard deviation, or `"exact"`.
-#[derive(Clone, Copy)]
-struct Deviation(f64);
-
 impl<'de> Deserialize<'de> for BudgetKey {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct KeyVisitor;
@@ -61,35 +57,6 @@ impl<'de> Deserialize<'de> for BudgetKey {
             }
         }
         deserializer.deserialize_any(KeyVisitor)
-    }
-}
-
-impl<'de> Deserialize<'de> for Deviation {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct DeviationVisitor;
-        impl Visitor<'_> for DeviationVisitor {
-            type Value = Deviation;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a standard deviation or \"exact\"")
-            }
-
-            fn visit_str<E: de::Error>(self, word: &str) -> Result<Deviation, E> {
-                match word {
-                    "exact" => Ok(Deviation(0.0)),
-                    _ => Err(E::invalid_value(de::Unexpected::Str(word), &self)),
-                }
-            }
-
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Deviation, E> {
-                Ok(Deviation(value))
-            }
-
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Deviation, E> {
-                Ok(Deviation(value as f64))
-            }
-        }
-        deserializer.deserialize_any(DeviationVisitor)
     }
 }
 

@@ -11,7 +11,9 @@ use serde::{Deserialize, Deserializer};
 use bolted_joint_frf::structure::{Boundary, Difference};
 use bolted_joint_frf::{Dof, Quantity};
 use bolted_joint_joint::Bodies;
-use bolted_joint_study::{FrequencyTable, Method, OneOrMore, Paths, Stated, one_or_more_tables};
+use bolted_joint_study::{
+    FrequencyTable, Method, OneOrMore, Paths, Stated, UnitsTable, one_or_more_tables,
+};
 
 use super::super::bands::{BandChoice, BandChoices};
 use super::super::level::LevelMeasure;
@@ -70,14 +72,6 @@ pub(super) struct SectionTable {
     pub(super) height: Stated,
     pub(super) youngs_modulus: Stated,
     pub(super) poissons_ratio: Option<Stated>,
-}
-
-/// Units of a file of functions, by name.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct UnitsTable {
-    pub(super) length: String,
-    pub(super) force: String,
 }
 
 #[derive(Deserialize)]

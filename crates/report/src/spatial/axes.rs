@@ -9,6 +9,9 @@ use super::scaled;
 /// Coupling at the centre below this share counts for nothing.
 const DECOUPLED: f64 = 0.02;
 
+/// A value below this part of its deviation is zero: nobody reads its digits.
+const NOTHING: f64 = 1e-6;
+
 pub(super) fn section(found: &SpatialIdentification) -> String {
     let [of_stiffness, of_damping] = &found.covariances;
     [
@@ -79,7 +82,10 @@ fn of_axes(axes: &PrincipalAxes, units: [&str; 2]) -> String {
     let row = |motion: &str, (power, unit): &(i32, String), principal: &PrincipalStiffness| {
         let scale = 10_f64.powi(-power);
         let deviation = scale * principal.deviation.unwrap_or(0.0);
-        let stiffness = scale * principal.stiffness;
+        let stiffness = match scale * principal.stiffness {
+            nothing if nothing.abs() < NOTHING * deviation => 0.0,
+            stiffness => stiffness,
+        };
         let value = match deviation > 0.0 {
             true => beside(stiffness, deviation),
             false => shown(stiffness, 6),
@@ -115,9 +121,10 @@ fn of_axes(axes: &PrincipalAxes, units: [&str; 2]) -> String {
         ]
         .concat()
     };
+    // of values that the data leave open the deviations say how large they may be
     let largest = |all: &[PrincipalStiffness; 3]| {
         all.iter()
-            .map(|one| one.stiffness.abs())
+            .map(|one| one.stiffness.abs().max(one.deviation.unwrap_or(0.0)))
             .fold(0.0, f64::max)
     };
     let [straight, turned] = [&axes.translational, &axes.rotational].map(largest);

@@ -114,7 +114,9 @@ impl SpatialReport<'_> {
             .chain(found.warnings.iter().map(warning));
         let reasons = found.reasons_against.iter();
         let reasons = reasons.map(|reason| warning(&format!("Not to be relied on: {reason}.")));
-        html + &misfits.chain(reasons).collect::<String>()
+        let noise = found.overstated_noise(self.study);
+        let noise = noise.iter().map(warning);
+        html + &misfits.chain(noise).chain(reasons).collect::<String>()
     }
 }
 

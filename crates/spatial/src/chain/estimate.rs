@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 
 use super::apart::{Apart, apart};
 use super::study::ChainStudy;
-use crate::advice::of_zero_functions;
+use crate::advice::{of_noise, of_zero_functions};
 use crate::error::SpatialError;
 use crate::fit::covariance;
 use crate::identification::Unknown;
@@ -134,8 +134,9 @@ impl ChainStudy {
             lines,
             reduced_chi_squared,
             starts,
-            warnings: of_zero_functions(zero_functions, functions)
-                .into_iter()
+            warnings: (self.assumed.iter().cloned())
+                .chain(of_zero_functions(zero_functions, functions))
+                .chain(of_noise(self.level, reduced_chi_squared))
                 .collect(),
             reasons_against: Vec::new(),
         };
@@ -150,7 +151,7 @@ impl ChainStudy {
     fn measured(&self) -> Result<(Problem, usize), SpatialError> {
         let sought = self.sought();
         if sought == 0 {
-            return Err(SpatialError::AllKnown);
+            return Err(self.all_known().into());
         }
         if sought > 1 && self.problem.tolerances.is_some() {
             return Err(SpatialError::BudgetOfSeveral { sought });

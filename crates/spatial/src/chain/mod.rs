@@ -7,7 +7,8 @@
 mod apart;
 mod beam;
 mod estimate;
-mod part;
+mod once;
+pub(crate) mod part;
 pub(crate) mod plan;
 mod reader;
 mod reduced;

@@ -8,7 +8,7 @@ use bolted_joint_frf::{Dof, FrfSet, Sign};
 use bolted_joint_space::Motions;
 use bolted_joint_study::{Paths, StudyError, StudyText};
 use bolted_joint_virtual_point::{Impact, Places, Role, Sensor, SetUp, VirtualPointError};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 use num_complex::Complex64;
 
 use crate::side::{Interface, Placed, Side};
@@ -77,6 +77,18 @@ impl PartInterface {
         directions
             .map(|direction| Dof::new(node, direction, Sign::Plus))
             .collect()
+    }
+
+    /// From one of its sensors or impacts to another, at most, m.
+    pub(crate) fn size_m(&self) -> f64 {
+        let sensors = self.sensors.iter().map(|(_, own)| own.position_m());
+        let impacts = self.impacts.iter().map(|(_, own)| own.position_m());
+        let places: Vec<_> = sensors.chain(impacts).collect();
+        let farthest = |one: &Vector3<f64>| {
+            let distances = places.iter().map(|other| (other - one).norm());
+            distances.fold(0.0, f64::max)
+        };
+        places.iter().map(farthest).fold(0.0, f64::max)
     }
 
     /// Its sensors and impacts.

@@ -14,6 +14,7 @@ use super::beam::computed;
 use super::part::{Part, PartInterface, Source};
 use super::plan::candidates::{Candidate, Thing};
 use super::response::Scatter;
+use crate::functions::FileOfFunctions;
 use crate::links::{Link, Numbers};
 use crate::study::{FARTHEST_M, Reader};
 use crate::tables::{
@@ -75,11 +76,26 @@ impl Reader<'_> {
         name: &str,
         table: &PartTable,
         lines: &LineChoice,
+        assumed: &mut Vec<String>,
     ) -> Result<Source, StudyError> {
+        self.study.beside_functions_only(
+            name,
+            table.frf.is_some(),
+            &[
+                ("quantity", "a quantity", table.quantity.is_some()),
+                ("units", "units", table.units.is_some()),
+            ],
+        )?;
         match (&table.frf, &table.modal, &table.beam) {
-            (Some(path), None, None) => {
-                let set = self.functions(&format!("{name}.frf"), path, lines)?;
-                Ok(Source::Functions(set))
+            (Some(paths), None, None) => {
+                let file = FileOfFunctions {
+                    paths,
+                    quantity: table.quantity,
+                    units: table.units.as_ref(),
+                };
+                let read = self.functions(name, &file, lines)?;
+                assumed.extend(read.assumed);
+                Ok(Source::Functions(read.set))
             }
             (None, Some(path), None) => {
                 let model = ModalModel::read(&self.study.resolved(path));

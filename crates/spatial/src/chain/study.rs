@@ -8,14 +8,19 @@ use bolted_joint_space::Motions;
 use bolted_joint_study::{Method, Paths, StudyError, StudyText, input_file};
 use nalgebra::Matrix6;
 
+use super::once::every_point_once;
 use super::part::{Part, Source, files_of, joined};
 use super::plan::candidates::Candidate;
 use super::response::Scatter;
+use crate::functions::FileOfFunctions;
 use crate::links::{Links, Numbers};
 use crate::problem::{Level, Observed, Problem};
 use crate::side::Side;
 use crate::study::{Reader, model_name, motions};
 use crate::tables::StudyFile;
+
+/// Lines of a measured assembly, at least.
+const FEWEST_LINES: usize = 2;
 
 /// A checked study of parts in a chain with joints between them: two parts with one joint, or more.
 ///
@@ -43,6 +48,8 @@ pub struct ChainStudy {
     pub(crate) problem: Problem,
     /// What was measured of the assembly.
     pub(crate) assembly: Option<FrfSet>,
+    /// What had to be assumed of the files.
+    pub(crate) assumed: Vec<String>,
     /// What each joint that is sought is taken to be: its table, and K and C where they are stated.
     pub(crate) expected: Vec<(String, Option<[Matrix6<f64>; 2]>)>,
     /// How far each joint scatters, where its file says so number by number.
@@ -66,7 +73,35 @@ impl ChainStudy {
             "functions of the assembly; what a test of it would tell says `bolted-joint respond --plan`, and what an assembly answers \
              whose joints are known `bolted-joint respond`",
         )?;
-        Self::of(study, None)
+        let own = Self::of(study, None)?;
+        own.ensure_lines()?;
+        Ok(own)
+    }
+
+    /// A joint is valid between two frequencies.
+    fn ensure_lines(&self) -> Result<(), StudyError> {
+        let lines = &self.problem.frequency_hz;
+        let found = match lines.as_slice() {
+            [only_hz] => format!(
+                "1 line that all files have, at {} Hz",
+                (only_hz * 1e6).round() / 1e6
+            ),
+            _ => format!("{} lines that all files have", lines.len()),
+        };
+        self.text.ensure(
+            lines.len() >= FEWEST_LINES,
+            "frequency",
+            found,
+            format_args!(
+                "at least {FEWEST_LINES} lines; widen `frequency` (from, to, every) or measure with finer lines"
+            ),
+        )
+    }
+
+    /// What had to be assumed of the files: units that they do not state.
+    #[must_use]
+    pub fn assumed(&self) -> &[String] {
+        &self.assumed
     }
 
     /// A study from its text, with the files that it names; lines `step_hz` apart where none of these has any.
@@ -99,15 +134,33 @@ impl ChainStudy {
             format_args!("{}, one between each part and the next", tables.len() - 1),
         )?;
         let lines = study.line_choice(&file.frequency)?;
+        study.beside_functions_only(
+            "assembly",
+            file.assembly.frf.is_some(),
+            &[
+                ("quantity", "a quantity", file.assembly.quantity.is_some()),
+                ("units", "units", file.assembly.units.is_some()),
+            ],
+        )?;
+        let mut assumed = Vec::new();
         let assembly = match &file.assembly.frf {
-            Some(path) => Some(reader.functions("assembly.frf", path, &lines)?),
+            Some(paths) => {
+                let own = FileOfFunctions {
+                    paths,
+                    quantity: file.assembly.quantity,
+                    units: file.assembly.units.as_ref(),
+                };
+                let read = reader.functions("assembly", &own, &lines)?;
+                assumed.extend(read.assumed);
+                Some(read.set)
+            }
             None => None,
         };
         let is_measured = assembly.is_some();
         let mut frequency_hz = assembly.as_ref().map(|set| set.frequency_hz().to_vec());
         let mut parts = Vec::new();
         for &(name, table) in &tables {
-            let source = reader.source(name, table, &lines)?;
+            let source = reader.source(name, table, &lines, &mut assumed)?;
             if let Source::Functions(set) = &source {
                 match &frequency_hz {
                     None => frequency_hz = Some(set.frequency_hz().to_vec()),
@@ -118,6 +171,7 @@ impl ChainStudy {
             }
             parts.push(reader.part(name, table, source, is_measured)?);
         }
+        every_point_once(study, &parts)?;
         let frequency_hz = match frequency_hz {
             Some(frequency_hz) => frequency_hz,
             None => reader.lines(&file.frequency, step_hz)?,
@@ -197,7 +251,7 @@ impl ChainStudy {
             text: study.clone(),
             motions,
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, &sides)?,
+                tolerances: reader.tolerances(&file.budget, &sides, &parts)?,
                 sides,
                 frequency_hz,
                 observed: Vec::new(),
@@ -205,6 +259,7 @@ impl ChainStudy {
             },
             parts,
             assembly,
+            assumed,
             expected,
             scatters,
             planned,
@@ -219,6 +274,13 @@ impl ChainStudy {
             motions: self.motions,
         };
         reader.observed(&self.problem.sides, self.assembly.as_ref())
+    }
+
+    /// Why nothing is found where nothing is sought.
+    pub(crate) fn all_known(&self) -> StudyError {
+        let expected =
+            "one with a model to be sought; what the assembly answers says `bolted-joint respond`";
+        self.text.refusal("joint", "every one known", expected)
     }
 
     /// How many joints are sought.

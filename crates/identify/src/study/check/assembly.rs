@@ -2,11 +2,11 @@
 
 use super::super::Substructure;
 use super::super::set_up::Accelerometer;
-use super::super::tables::{NoiseTable, UnitsTable};
+use super::super::tables::NoiseTable;
 use super::super::{FrfFile, FurtherAssembly};
 use super::stated::not_negative;
-use bolted_joint_frf::{Dof, Quantity, UnitSystem};
-use bolted_joint_study::{Paths, Stated, StudyError, StudyText};
+use bolted_joint_frf::{Dof, Quantity};
+use bolted_joint_study::{Paths, Stated, StudyError, StudyText, UnitsTable};
 
 /// What a study says of a file of functions.
 #[derive(Clone, Copy)]
@@ -28,13 +28,7 @@ pub(crate) fn frf_file(
     paths: &Paths,
     stated: &MeasuredAs<'_>,
 ) -> Result<FrfFile, StudyError> {
-    let named = |UnitsTable { length, force }: &UnitsTable| {
-        let found = format!("length = {length:?}, force = {force:?}");
-        let expected = "units of length and force such as { length = \"mm\", force = \"N\" }";
-        let units = UnitSystem::named(length, force);
-        units.ok_or_else(|| study.refusal(format_args!("{key}.units"), found, expected))
-    };
-    let units = stated.units.map(named).transpose()?;
+    let units = study.units(format_args!("{key}.units"), stated.units)?;
     if let Some(found) = stated.averages {
         let key = format!("{key}.averages");
         study.within(key, found, 1.0..=f64::MAX, "a number of at least 1")?;

@@ -29,25 +29,21 @@ pub(crate) fn substructure(
     model: JointModel,
     bolts: &Bolts,
 ) -> Result<Substructure, StudyError> {
-    for (name, found, there) in [
-        ("quantity", "a quantity", table.quantity.is_some()),
-        ("units", "units", table.units.is_some()),
-        ("averages", "averages", table.averages.is_some()),
-        ("coherence", "a file", table.coherence.is_some()),
-        (
-            "accelerometer_mass",
-            "a mass",
-            table.accelerometer_mass.is_some(),
-        ),
-    ] {
-        let good = !there || table.frf.is_some();
-        study.ensure(
-            good,
-            format_args!("{key}.{name}"),
-            found,
-            "it beside `frf` only",
-        )?;
-    }
+    study.beside_functions_only(
+        key,
+        table.frf.is_some(),
+        &[
+            ("quantity", "a quantity", table.quantity.is_some()),
+            ("units", "units", table.units.is_some()),
+            ("averages", "averages", table.averages.is_some()),
+            ("coherence", "a file", table.coherence.is_some()),
+            (
+                "accelerometer_mass",
+                "a mass",
+                table.accelerometer_mass.is_some(),
+            ),
+        ],
+    )?;
     if table.ground {
         return ground(study, key, &table, bolts);
     }

@@ -66,7 +66,8 @@ fn own<'p>(parts: &'p mut [Part], name: &str) -> Option<&'p mut Part> {
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let to = &self.to;
-        let [x, y, z] = self.position_m.map(|x| (x * 1e6).round() / 1e6);
+        // zero that is added takes the sign of a zero away
+        let [x, y, z] = self.position_m.map(|x| (x * 1e6).round() / 1e6 + 0.0);
         match &self.thing {
             Thing::Response(dof) => write!(f, "{to}.responses: {dof}"),
             Thing::Reference(dof) => write!(f, "{to}.references: {dof}"),

@@ -97,7 +97,7 @@ impl ChainStudy {
     pub fn plan(&self, aim: &Aim, additions: usize) -> Result<Plan, SpatialError> {
         let links = &self.problem.links;
         if links.sought().is_empty() {
-            return Err(SpatialError::AllKnown);
+            return Err(self.all_known().into());
         }
         let Level::Relative(noise) = self.level else {
             return Err(SpatialError::NoNoise);
@@ -105,6 +105,7 @@ impl ChainStudy {
         let (values, mut warnings) = self.expected()?;
         let chosen = chosen(links, aim)?;
         let test = self.test(&self.parts, &values, noise, usize::MAX)?;
+        warnings.extend(self.assumed.iter().cloned());
         warnings.extend(advice(&test.problem.sides));
         let (unknowns, apart, lines) = test.unknowns()?;
         let all = test.problem.frequency_hz.len();

@@ -22,6 +22,9 @@ use crate::together::LINES_MAX;
 /// small enough for the numbers to be inverted.
 const OPEN: f64 = 100.0;
 
+/// A number below this part of what couples its motions at most is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Others that are named as looking like a number.
 const MOST_ALIKE: usize = 3;
 
@@ -178,7 +181,10 @@ impl Test {
                 unknowns.push(Planned {
                     joint: joint.link.key.clone(),
                     name,
-                    value: truth.0[n],
+                    value: match truth.0[n] {
+                        value if value.abs() <= ROUNDING * size => 0.0,
+                        value => value,
+                    },
                     size,
                     deviation: of_all,
                     deviation_by_noise: of_noise,

@@ -1,0 +1,76 @@
+//! Reads files of functions with what a study says of them.
+
+use bolted_joint_frf::{FrfReading, FrfSet, Quantity, ReadOptions, read_frfs};
+use bolted_joint_study::{LineChoice, Paths, StudyError, UnitsTable};
+
+use crate::study::Reader;
+
+/// Frequencies that are the same, in parts.
+const SAME: f64 = 1e-6;
+
+/// A file of functions, and what the study says of it.
+pub(crate) struct FileOfFunctions<'t> {
+    pub(crate) paths: &'t Paths,
+    pub(crate) quantity: Option<Quantity>,
+    pub(crate) units: Option<&'t UnitsTable>,
+}
+
+/// What was read of it, and what had to be assumed.
+pub(crate) struct Functions {
+    pub(crate) set: FrfSet,
+    pub(crate) assumed: Option<String>,
+}
+
+impl Reader<'_> {
+    pub(crate) fn functions(
+        &self,
+        key: &str,
+        file: &FileOfFunctions<'_>,
+        lines: &LineChoice,
+    ) -> Result<Functions, StudyError> {
+        let options = ReadOptions {
+            quantity: file.quantity,
+            units: (self.study).units(format_args!("{key}.units"), file.units)?,
+            ..ReadOptions::default()
+        };
+        let readings = (file.paths.iter())
+            .map(|path| read_frfs(self.study.resolved(path), &options))
+            .collect::<Result<_, _>>();
+        let reading = readings
+            .and_then(FrfReading::joined)
+            .map_err(StudyError::of_file)?;
+        let assumed = reading.units_warning();
+        let set = reading.into_set().map_err(StudyError::of_file)?;
+        let [from_hz, to_hz] = lines.range_hz;
+        let set = set
+            .restricted_to(from_hz, to_hz)
+            .and_then(|set| set.thinned(&lines.bands_hz, lines.every))
+            .map_err(|source| {
+                StudyError::model(self.study.path(), Some(&format!("{key}.frf")), source)
+            })?;
+        Ok(Functions { set, assumed })
+    }
+
+    pub(crate) fn same_lines(
+        &self,
+        key: &str,
+        found: &[f64],
+        expected: &[f64],
+    ) -> Result<(), StudyError> {
+        let are_same = found.len() == expected.len()
+            && found
+                .iter()
+                .zip(expected)
+                .all(|(one, other)| (one - other).abs() <= SAME * other.abs());
+        let ends = |all: &[f64]| match (all.first(), all.last()) {
+            (Some(first), Some(last)) => format!("{} lines from {first} to {last} Hz", all.len()),
+            _ => "no lines".to_owned(),
+        };
+        self.study.ensure(
+            are_same,
+            key,
+            ends(found),
+            format_args!("the lines of the other files, {}", ends(expected)),
+        )
+    }
+}

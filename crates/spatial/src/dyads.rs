@@ -55,15 +55,15 @@ fn side_by_side(groups: &[Group]) -> (usize, Vec<(usize, &Group)>) {
     (next, placed)
 }
 
-/// The same, added to `all`.
+/// What [`information`] gives, added to `all`.
 ///
 /// Both sums are products of real matrices: over the columns H = Σ_i w conj(y_q) y_u for all rows at once, and over the rows
 /// Σ_o conj(x_p) x_r H.
 pub(crate) fn add_information(grid: &Grid, groups: &Placed<'_>, all: &mut DMatrix<Complex64>) {
     let weights = grid.weights.transpose();
     for (s, &(first, one)) in groups.iter().enumerate() {
-        for &(second, other) in &groups[s..] {
-            let is_one = first == second;
+        for (t, &(second, other)) in groups.iter().enumerate().skip(s) {
+            let is_one = s == t;
             let [of_columns, turned] = over_columns(&one.right, &other.right, &weights);
             let pairs = pairs([one, other], is_one);
             let [of_rows, sideways] = by_rows([one, other], &pairs);
@@ -143,7 +143,7 @@ pub(crate) fn descent(
     all
 }
 
-/// The same, added to `all`.
+/// What [`descent`] gives, added to `all`.
 pub(crate) fn add_descent(
     grid: &Grid,
     groups: &Placed<'_>,

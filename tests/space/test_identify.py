@@ -156,9 +156,11 @@ def test_phases_that_are_counted_the_other_way_are_told(run, tmp_path):
     for file in "abc":
         functions = dict(np.load(tmp_path / f"{file}.npz"))
         np.savez(tmp_path / f"{file}.npz", **functions | {"frf": functions["frf"].conj()})
-    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3).stderr
+    report = tmp_path / "r.html"
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--report", report, expect=3).stderr
     for name in ("a", "b"):
-        assert f"{name}: 6 of 6 motions of the virtual point answer their own loads as if the structure fed energy" in told
+        for text in (told, report.read_text(encoding="utf-8")):
+            assert f"{name}: 6 of 6 motions of the virtual point answer their own loads as if the structure fed energy" in text
     assert "counted the other way (e^−jωt)" in told and "ask for a joint that feeds energy" in told, told
 
 

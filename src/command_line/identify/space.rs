@@ -48,14 +48,17 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let study = SpatialStudy::of(study)?;
     check_output(&arguments.output, &[&arguments.study])?;
     warn(&study.advice());
-    warn(&study.phases()?);
+    let phases = study.phases()?;
+    warn(&phases);
     let misfits = study.misfits()?;
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;
     let progress = Progress::new("identifying", 0);
-    let found = study.identify()?;
+    let mut found = study.identify()?;
     drop(progress);
     warn(&found.warnings);
+    // told before the search; a report has them too
+    found.warnings.extend(phases);
     warn(not_determined(&found).as_slice());
     warn(found.overstated_noise(&study).as_slice());
     let file = found.joint_file(&study);

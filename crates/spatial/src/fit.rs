@@ -301,7 +301,7 @@ fn tried(
     let bent = bend.map(|bend| &straight + bend);
     let mut steps = bent.into_iter().chain([straight]);
     steps.find_map(|step| {
-        let trial = Unknowns(&unknowns.0 + step);
+        let trial = squares.problem().after(unknowns, &step);
         let found = squares.cost(&trial).ok()?;
         (found <= normal.cost).then_some((trial, found))
     })

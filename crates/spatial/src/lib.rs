@@ -37,12 +37,14 @@ mod phases;
 mod problem;
 mod reasons;
 mod richer;
+mod rigid;
 #[cfg(test)]
 mod samples;
 mod search;
 mod side;
 mod spread;
 mod starts;
+mod steps;
 mod study;
 mod tables;
 mod together;

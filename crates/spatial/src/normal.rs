@@ -82,7 +82,7 @@ pub(crate) fn bend(
     deviations: &Deviations,
 ) -> Result<DVector<f64>, SpatialError> {
     let here = Assembled::new(problem, unknowns)?;
-    let aside = |part: f64| Unknowns(&unknowns.0 + step * part);
+    let aside = |part: f64| problem.after(unknowns, &(step * part));
     let (behind, ahead) = (aside(-ASIDE), aside(ASIDE));
     let [behind, ahead] = [
         Assembled::new(problem, &behind)?,

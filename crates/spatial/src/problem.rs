@@ -39,11 +39,23 @@ pub(crate) struct Problem {
     pub(crate) links: Links,
     /// Of the set-ups; `None` where they are exact.
     pub(crate) tolerances: Option<Tolerances>,
+    /// Stiffnesses that balance the structures in each motion of the joints that are sought, N/m and N·m/rad: 1/|H_ii|. Where they
+    /// are known, steps follow the functions.
+    pub(crate) balance: Option<Vec<f64>>,
 }
 
 /// Unknowns: of stiffness and of damping of each joint, and errors of the set-up of a and of b.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Unknowns(pub(crate) DVector<f64>);
+
+impl Unknowns {
+    /// Those of the joint, beside these errors of a and of b.
+    pub(crate) fn beside(self, errors: &[Vec<f64>; 2]) -> Self {
+        let joint = self.0.iter().copied();
+        let all: Vec<f64> = joint.chain(errors.iter().flatten().copied()).collect();
+        Self(DVector::from_vec(all))
+    }
+}
 
 impl Problem {
     /// With so many lines at most, spread over all.
@@ -74,6 +86,7 @@ impl Problem {
             observed: self.observed.iter().map(observed).collect(),
             links: self.links.clone(),
             tolerances: self.tolerances,
+            balance: self.balance.clone(),
         }
     }
 
@@ -126,12 +139,16 @@ impl Problem {
         self.joint_count() + self.error_count()
     }
 
-    /// With set-ups that have these errors, and are exact so.
+    /// With set-ups that have the errors of these unknowns, and are exact so.
     pub(crate) fn displaced(&self, unknowns: &Unknowns) -> Result<Self, SpatialError> {
+        self.with_errors(&self.errors(unknowns))
+    }
+
+    /// With set-ups that have these errors of a and of b, and are exact so.
+    pub(crate) fn with_errors(&self, errors: &[Vec<f64>; 2]) -> Result<Self, SpatialError> {
         let mut own = self.clone();
         own.tolerances = None;
-        let errors = self.errors(unknowns);
-        for (side, errors) in own.sides.iter_mut().zip(&errors) {
+        for (side, errors) in own.sides.iter_mut().zip(errors) {
             *side = side.displaced(errors)?;
         }
         Ok(own)
@@ -153,7 +170,14 @@ impl Problem {
     /// How far unknowns are expected to be off: those of the joint by what couples their motions at most, errors of the
     /// set-up by their deviations.
     pub(crate) fn expected(&self, unknowns: &Unknowns) -> Result<DVector<f64>, SpaceError> {
-        let of_joints = self.links.sizes(unknowns.0.as_slice())?;
+        let of_joints = match self
+            .balance
+            .as_deref()
+            .and_then(|own| self.reaches(own, unknowns))
+        {
+            Some(own) => own,
+            None => self.links.sizes(unknowns.0.as_slice())?,
+        };
         let all: Vec<f64> = of_joints
             .into_iter()
             .chain(self.error_deviations())

@@ -80,18 +80,12 @@ pub(crate) fn starts(
             }
         }
     }
-    // k = 1/|H_ii|, where joints and structures are alike
+    let balance = balance(&problem, &open);
     let middle = problem.omega(looked_at.len() / 2);
     for part in PARTS {
         let of = |joint: usize| {
             let stiffness = Matrix6::from_diagonal(&Vector6::from_fn(|dof, _| {
-                let i = MOTIONS * joint + dof;
-                let sizes = open.iter().map(|open| open.seen[(i, i)].norm());
-                match median(sizes.collect()) {
-                    // no motion of the study
-                    0.0 => 0.0,
-                    size => part / size,
-                }
+                part * balance[MOTIONS * joint + dof]
             }));
             [stiffness, stiffness * (LOSS / middle)]
         };
@@ -104,6 +98,32 @@ pub(crate) fn starts(
             loads.as_ref()?.balanced(&problem, start, &lines)
         }
     }))
+}
+
+/// 1/|H_ii| of each motion of the joints that are sought, as the middle of the lines has it: stiffnesses that are like those of the
+/// structures. 0 for no motion of the study.
+fn balance(problem: &Problem, open: &[Open]) -> Vec<f64> {
+    let motions = 0..MOTIONS * problem.links.sought().len();
+    let of = |i: usize| {
+        let sizes = open.iter().map(|open| open.seen[(i, i)].norm());
+        match median(sizes.collect()) {
+            0.0 => 0.0,
+            size => size.recip(),
+        }
+    };
+    motions.map(of).collect()
+}
+
+impl Problem {
+    /// Stiffnesses that are like those of the structures, for [`Problem::after`].
+    pub(crate) fn balance(&self) -> Result<Vec<f64>, SpatialError> {
+        let assembled = Assembled::without_sought(self)?;
+        let lines = 0..self.frequency_hz.len();
+        let open: Vec<Open> = lines
+            .map(|line| assembled.open(line))
+            .collect::<Result<_, _>>()?;
+        Ok(balance(self, &open))
+    }
 }
 
 /// To a start.

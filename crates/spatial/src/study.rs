@@ -93,6 +93,7 @@ impl SpatialStudy {
             assumed: chain.assumed,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides, &chain.parts)?,
+                balance: None,
                 sides,
                 frequency_hz,
                 observed,

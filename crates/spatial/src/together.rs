@@ -1,8 +1,8 @@
 //! The joint together with the errors of the set-up.
 //!
 //! Beside noise of a thousandth, sensors a millimetre off leave residuals of a half, and the search for both goes astray. So
-//! the noise is taken as large as the residuals at first, and let down in steps: the errors that matter most come first, and
-//! each step begins near its end.
+//! the noise is taken as large as the residuals at first, and let down as they shrink: the errors that matter most come first, and
+//! each step begins near its end. Starts are those beside the errors that each structure tells by itself.
 
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
@@ -17,11 +17,12 @@ const LINES: usize = 12;
 /// Lines of the estimate. More would tell the errors of the set-up little better.
 pub(crate) const LINES_MAX: usize = 60;
 
-/// Noise of a step, in parts of that of the step before, at most.
+/// Noise of a step, in parts of the residuals of the step before.
 const LET_DOWN: f64 = 0.3;
 
-/// Steps after which residuals that do not follow the noise will not.
-const PATIENCE: usize = 5;
+/// Residuals of a step that hardly shrinks them, in parts of those before, and such steps one after the other that are enough.
+const STALLED: f64 = 0.8;
+const PATIENCE: usize = 2;
 
 /// Squares over numbers that do not follow it, and those that noise and the budget explain.
 const LAGGING: f64 = 3.0;
@@ -33,6 +34,9 @@ const EXPECTED: f64 = 1.3;
 /// A search that has come as low as the lowest, up to this part.
 const AS_LOW: f64 = 1e-3;
 
+/// Stiffness in parts of the structures' own from which on a joint is as good as rigid: a search may have lost it there.
+const RIGID: f64 = 1e4;
+
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many starts were tried and how many came to the same
 /// minimum. None is tried after one that noise explains, where its level is stated, after one that leaves nothing, or after two that
 /// agree.
@@ -41,24 +45,37 @@ pub(crate) fn together(
     level: &Deviations,
     is_stated: bool,
 ) -> Result<(Fit, [usize; 2]), SpatialError> {
+    let likely = problem.likely_errors()?;
+    let known = problem.thinned(LINES_MAX).with_errors(&likely)?;
+    let balance = known.balance()?;
+    // on curves along which the functions are nearly straight, and straight on: each finds what the other one misses
     let thin = problem.thinned(LINES);
-    let mut starts: Vec<(f64, Unknowns)> = starts(&thin, level)?
+    let ways = [Some(balance.clone()), None].map(|balance| Problem {
+        balance,
+        ..thin.clone()
+    });
+    let mut starts: Vec<(f64, Unknowns)> = starts(&known, level)?
+        .map(|joint| joint.beside(&likely))
         .filter_map(|start| Some((cost(&thin, &start, level).ok()?, start)))
         .collect();
     starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    let numbers = thin.numbers() as f64;
     let explained = |fit: &Fit| {
         let errors = squares_of_errors(&thin, &fit.unknowns);
-        let numbers = thin.numbers() as f64;
         fit.cost < NOTHING * numbers
             || is_stated
                 && fit.cost < EXPLAINED * numbers
                 && errors < EXPECTED * problem.error_count() as f64
+                && !is_rigid(&thin, &balance, &fit.unknowns)
     };
     let mut best: Option<Fit> = None;
     let (mut tried, mut agreeing) = (0, 0);
-    for (residual, start) in starts {
+    let tries = starts
+        .iter()
+        .flat_map(|start| ways.each_ref().map(|way| (way, start)));
+    for (way, (residual, start)) in tries {
         tried += 1;
-        let Ok(fit) = let_down(&thin, start, residual, level) else {
+        let Ok(fit) = let_down(way, start.clone(), *residual, level) else {
             continue;
         };
         let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
@@ -70,7 +87,12 @@ pub(crate) fn together(
         if fit.cost < lowest {
             best = Some(fit);
         }
-        if agreeing > 1 || best.as_ref().is_some_and(explained) {
+        // two that are far above the noise agree on where a search gets stuck
+        let is_low = |best: &Fit| !is_stated || !lags(&thin, best.cost);
+        if best
+            .as_ref()
+            .is_some_and(|best| explained(best) || agreeing > 1 && is_low(best))
+        {
             break;
         }
     }
@@ -100,23 +122,36 @@ fn let_down(
     residual: f64,
     level: &Deviations,
 ) -> Result<Fit, SpatialError> {
+    let numbers = problem.numbers() as f64;
     let mut unknowns = start;
-    let mut factor = (residual / problem.numbers() as f64).sqrt();
-    for step in 1.. {
-        if factor <= 1.0 {
-            break;
-        }
+    let mut left = (residual / numbers).sqrt();
+    let mut factor = left;
+    let mut stalled = 0;
+    while factor > 1.0 {
         let own: Deviations = level.iter().map(|level| factor * level).collect();
         let fit = Fit::of(problem, unknowns, &own, Effort::Coarse)?;
         unknowns = fit.unknowns;
-        if step >= PATIENCE && lags(problem, fit.cost) {
+        let now = factor * (fit.cost / numbers).sqrt();
+        stalled = if now > STALLED * left { stalled + 1 } else { 0 };
+        if stalled >= PATIENCE {
             return Ok(Fit {
                 cost: cost(problem, &unknowns, level)?,
                 unknowns,
                 has_converged: false,
             });
         }
-        factor *= (fit.cost / problem.numbers() as f64).sqrt().min(LET_DOWN);
+        left = now;
+        factor = LET_DOWN * left;
     }
     Fit::of(problem, unknowns, level, Effort::Near)
+}
+
+/// Whether a joint is as good as rigid in a motion, beside the structures' own stiffnesses.
+fn is_rigid(problem: &Problem, balance: &[f64], unknowns: &Unknowns) -> bool {
+    let values = unknowns.0.as_slice();
+    (problem.links.sought_matrices(values)).is_ok_and(|[stiffness, _]| {
+        let own = stiffness.diagonal();
+        let mut pairs = own.iter().zip(balance);
+        pairs.any(|(own, balance)| own.abs() > RIGID * balance)
+    })
 }

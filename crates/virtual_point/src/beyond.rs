@@ -5,25 +5,11 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::diagnosis::diagnosed;
-use crate::places::Places;
-use crate::projection::Projection;
-use crate::suspects::Spread;
+use crate::search::{Search, Start};
 use crate::{Change, Place, Role, Tolerance, VirtualPoint, VirtualPointError};
-
-/// Noise is at least this part of the functions: below it nobody measures.
-const LEAST_NOISE: f64 = 1e-3;
-
-/// Eigenvalues below this part of the largest are none.
-const NOTHING: f64 = 1e-9;
 
 /// Variance of the errors of a place that may be anything, in those of the budget.
 const ANYTHING: f64 = 1e6;
-
-/// Steps of Gauss and Newton, and halvings of each.
-const STEPS: usize = 12;
-const HALVINGS: usize = 4;
-/// χ² below which a step changes nothing.
-const NEAR: f64 = 0.01;
 
 impl VirtualPoint {
     /// By how much χ² falls where the errors of one place may be anything instead of within the budget, for each sensor or impact,
@@ -45,15 +31,8 @@ impl VirtualPoint {
         tolerance: &Tolerance,
     ) -> Result<Vec<(Place, f64)>, VirtualPointError> {
         let spread = self.spread(role, lines)?;
-        let functions = lines.first().map_or(0, DMatrix::len) as f64;
         let places = self.set_up().places(role);
-        let search = Search {
-            weights: self.projection(role).weights(),
-            length_m: self.conditioning(role).length_m,
-            spread: &spread,
-            numbers: 2.0 * functions * spread.lines(),
-            tolerance,
-        };
+        let search = self.search(role, lines, &spread, tolerance);
         let drawn = search.told(places);
         let parameters = places.parameters();
         let beyond = |which: Option<Place>| -> Vec<f64> {
@@ -120,182 +99,10 @@ impl VirtualPoint {
     }
 }
 
-/// What the functions are compared with.
-struct Search<'a> {
-    weights: &'a DMatrix<f64>,
-    length_m: f64,
-    spread: &'a Spread,
-    /// Measured real numbers.
-    numbers: f64,
-    tolerance: &'a Tolerance,
-}
-
-/// What functions that are not rigid tell of errors, in deviations of the budget, at places.
-struct Told {
-    /// ‖(I − R T) Y‖²
-    misfit: f64,
-    information: DMatrix<f64>,
-    pull: DVector<f64>,
-    /// σ²
-    noise: f64,
-}
-
-/// Errors, in deviations of the budget, and the places with them.
-struct Start {
-    places: Places,
-    errors: DVector<f64>,
-}
-
-/// Errors that explain most.
-struct Fitted {
-    end: Start,
-    /// χ²
-    squares: f64,
-    /// σ² there.
-    noise: f64,
-}
-
-impl Search<'_> {
-    fn told(&self, places: &Places) -> Option<Told> {
-        let projection = Projection::new(
-            places.matrix().clone(),
-            self.weights.clone(),
-            self.length_m,
-            places.motions(),
-        )?;
-        let rest = projection.rest();
-        let parameters = places.parameters();
-        // (I − R T) dR_k T
-        let changes: Vec<DMatrix<f64>> = (places.derivatives().iter().zip(&parameters))
-            .map(|(change, one)| {
-                &rest * change * projection.inverse() * self.tolerance.of(one.change)
-            })
-            .collect();
-        let count = changes.len();
-        let mut information = DMatrix::zeros(count, count);
-        let mut pull = DVector::zeros(count);
-        for (k, change) in changes.iter().enumerate() {
-            let own = self.weights * change * &self.spread.matrix;
-            for (l, other) in changes.iter().enumerate() {
-                information[(k, l)] = own.dot(other);
-            }
-            pull[k] = own.dot(&rest);
-        }
-        let misfit = (self.weights * &rest * &self.spread.matrix).dot(&rest);
-        // what errors of any size leave
-        let eigen = information.clone().symmetric_eigen();
-        let least = NOTHING * eigen.eigenvalues.max();
-        let (mut left, mut rank) = (misfit, 0.0);
-        for (value, vector) in (eigen.eigenvalues.iter()).zip(eigen.eigenvectors.column_iter()) {
-            if *value > least {
-                left -= vector.dot(&pull).powi(2) / value;
-                rank += 1.0;
-            }
-        }
-        let rows = projection.rows().nrows() as f64;
-        let degrees =
-            (self.numbers * (1.0 - places.motions().count() as f64 / rows) - rank).max(1.0);
-        // the squares of each line are 1
-        let least = LEAST_NOISE.powi(2) * self.spread.lines() / self.numbers;
-        Some(Told {
-            misfit,
-            information,
-            pull,
-            noise: (left / degrees).max(least),
-        })
-    }
-
-    /// By Gauss and Newton, with such 1/σ_k² in those of the budget.
-    fn fitted(&self, start: &Start, precision: &[f64], noise: f64) -> Option<Fitted> {
-        let priors = DVector::from_column_slice(precision);
-        let prior = |errors: &DVector<f64>| errors.component_mul(errors).dot(&priors);
-        let mut places = start.places.clone();
-        let mut errors = start.errors.clone();
-        let mut told = self.told(&places)?;
-        let mut squares = told.misfit / noise + prior(&errors);
-        for _ in 0..STEPS {
-            let matrix = &told.information / noise + DMatrix::from_diagonal(&priors);
-            let right = &told.pull / noise - priors.component_mul(&errors);
-            let mut step = matrix.cholesky()?.solve(&right);
-            let mut better = None;
-            for _ in 0..HALVINGS {
-                better = self.moved(&places, &step).and_then(|places| {
-                    let told = self.told(&places)?;
-                    let own = told.misfit / noise + prior(&(&errors + &step));
-                    (own < squares).then_some((places, told, own))
-                });
-                if better.is_some() {
-                    break;
-                }
-                step *= 0.5;
-            }
-            let Some(next) = better else { break };
-            errors += step;
-            let gained = squares - next.2;
-            (places, told, squares) = next;
-            if gained < NEAR {
-                break;
-            }
-        }
-        Some(Fitted {
-            end: Start { places, errors },
-            squares,
-            noise: told.noise,
-        })
-    }
-
-    /// Places moved by further errors, in deviations.
-    fn moved(&self, places: &Places, step: &DVector<f64>) -> Option<Places> {
-        let parameters = places.parameters();
-        let errors = parameters.iter().zip(step.iter());
-        let errors: Vec<f64> = errors
-            .map(|(one, part)| part * self.tolerance.of(one.change))
-            .collect();
-        places.displaced(&errors).ok()
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use bolted_joint_space::Axes;
-    use nalgebra::{Matrix6, Vector3};
-
     use super::*;
-    use crate::samples::Mixed;
-    use crate::{Impact, Sensor, SetUp, Weights};
-
-    /// Sensors and impacts at random places; functions of a set-up with errors of these sizes, in deviations, and noise.
-    fn trial(seed: u64, bad: Option<(usize, f64)>) -> (VirtualPoint, Vec<DMatrix<Complex64>>) {
-        let mut mixed = Mixed(seed);
-        let mut place = || Vector3::from_fn(|_, _| 0.03 * mixed.next());
-        let sensors: Vec<_> = (0..3)
-            .map(|_| Sensor::triaxial(place(), &Axes::identity(), [1.0; 3]).unwrap())
-            .collect();
-        let impacts: Vec<_> = (0..9)
-            .map(|_| Impact::new(place(), place().normalize(), 1.0).unwrap())
-            .collect();
-        let set_up = SetUp::new(&sensors, &impacts).unwrap();
-        let tolerance = Tolerance::TYPICAL;
-        let mut errors: Vec<f64> = (set_up.parameters().iter())
-            .map(|one| 1.7 * mixed.next() * tolerance.of(one.change))
-            .collect();
-        if let Some((parameter, size)) = bad {
-            errors[parameter] = size;
-        }
-        let displaced = set_up.displaced(&errors).unwrap();
-        let lines = (0..8).map(|_| {
-            let scale = |i: usize| if i < 3 { 1.0 } else { 30.0 };
-            let receptance = Matrix6::from_fn(|i, j| {
-                Complex64::new(mixed.next(), mixed.next()) * scale(i) * scale(j)
-            });
-            displaced
-                .functions(&receptance)
-                .map(|value| value * (1.0 + 0.002 * mixed.next()))
-        });
-        let lines = lines.collect();
-        let point = VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal).unwrap();
-        (point, lines)
-    }
+    use crate::samples::trial;
 
     /// Within the budget no sensor gains much more than its nine errors may by chance. One that lies badly is named or left open,
     /// and no other is ever named in its place.

@@ -5,7 +5,7 @@ use bolted_joint_space::Axes;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 use num_complex::Complex64;
 
-use crate::{Impact, Sensor, SetUp, VirtualPoint, Weights};
+use crate::{Impact, Sensor, SetUp, Tolerance, VirtualPoint, Weights};
 
 /// Positions of three triaxial sensors, m.
 pub(crate) const SENSORS: [[f64; 3]; 3] = [
@@ -164,4 +164,40 @@ pub(crate) fn sine_weights(count: usize, phase: f64) -> Weights {
         (i * i + std::f64::consts::SQRT_2 * i * j + j + phase).sin()
     });
     Weights::Full(&root * root.transpose() + DMatrix::identity(count, count))
+}
+
+/// Sensors and impacts at random places; functions of a set-up with errors of these sizes, in deviations, and noise.
+pub(crate) fn trial(
+    seed: u64,
+    bad: Option<(usize, f64)>,
+) -> (VirtualPoint, Vec<DMatrix<Complex64>>) {
+    let mut mixed = Mixed(seed);
+    let mut place = || Vector3::from_fn(|_, _| 0.03 * mixed.next());
+    let sensors: Vec<_> = (0..3)
+        .map(|_| Sensor::triaxial(place(), &Axes::identity(), [1.0; 3]).unwrap())
+        .collect();
+    let impacts: Vec<_> = (0..9)
+        .map(|_| Impact::new(place(), place().normalize(), 1.0).unwrap())
+        .collect();
+    let set_up = SetUp::new(&sensors, &impacts).unwrap();
+    let tolerance = Tolerance::TYPICAL;
+    let mut errors: Vec<f64> = (set_up.parameters().iter())
+        .map(|one| 1.7 * mixed.next() * tolerance.of(one.change))
+        .collect();
+    if let Some((parameter, size)) = bad {
+        errors[parameter] = size;
+    }
+    let displaced = set_up.displaced(&errors).unwrap();
+    let lines = (0..8).map(|_| {
+        let scale = |i: usize| if i < 3 { 1.0 } else { 30.0 };
+        let receptance = Matrix6::from_fn(|i, j| {
+            Complex64::new(mixed.next(), mixed.next()) * scale(i) * scale(j)
+        });
+        displaced
+            .functions(&receptance)
+            .map(|value| value * (1.0 + 0.002 * mixed.next()))
+    });
+    let lines = lines.collect();
+    let point = VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal).unwrap();
+    (point, lines)
 }

@@ -67,6 +67,7 @@ impl ChainStudy {
             observed: Vec::new(),
             links: Links(links.to_vec()),
             tolerances: None,
+            balance: None,
         };
         let [a, b] = &problem.sides;
         // the end part is the first of its side, or the last one

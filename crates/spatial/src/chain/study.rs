@@ -252,6 +252,7 @@ impl ChainStudy {
             motions,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides, &parts)?,
+                balance: None,
                 sides,
                 frequency_hz,
                 observed: Vec::new(),

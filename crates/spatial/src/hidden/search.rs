@@ -31,7 +31,11 @@ pub(crate) fn searched_beside(
     level: &Deviations,
     noise: [f64; 2],
 ) -> Result<(Fit, [usize; 2]), SpatialError> {
-    let begun: Vec<Unknowns> = starts(&problem.smoothed()?.thinned(SEARCHED), level)?.collect();
+    let likely = problem.likely_errors()?;
+    let known = problem.thinned(SEARCHED).with_errors(&likely)?.smoothed()?;
+    let begun: Vec<Unknowns> = starts(&known, level)?
+        .map(|joint| joint.beside(&likely))
+        .collect();
     let first = begun.first().ok_or(SpatialError::NoStart)?;
     // the lines at which noise moves least, as far as the joint is known
     let some = problem.thinned(10 * LINES);

@@ -68,8 +68,16 @@ fn numbers_of_laws_may_have_deviations() {
     assert_eq!(JointFile::from_json(&written, "").unwrap(), file);
     // of other laws than the joint has, or below zero
     for (from, to, says) in [
-        ("\"y\"", "\"theta\"", "found \"jenkins on theta\", expected the laws of the joint in their order, \"jenkins on y\""),
-        ("2e4", "-2e4", "uncertainty.standard_deviation.friction[0].stiffness: found -20000"),
+        (
+            "\"y\"",
+            "\"theta\"",
+            "found \"jenkins on theta\", expected the laws of the joint in their order, \"jenkins on y\"",
+        ),
+        (
+            "2e4",
+            "-2e4",
+            "uncertainty.standard_deviation.friction[0].stiffness: found -20000",
+        ),
     ] {
         let refused = with_deviations(&own.replace(from, to)).unwrap_err();
         assert!(refused.contains(says), "{refused}");

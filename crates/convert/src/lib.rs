@@ -251,7 +251,8 @@ mod tests {
     #[test]
     fn units_in_comments_have_their_powers() {
         const HIGHER: &str = r#"{"format": "bolted-joint/1", "name": "h", "joint": {"dofs": ["theta"], "stiffness": [[1e4]],
-            "damping": [[2]], "cubic": [1e5], "higher": {"k5": [1e6], "k7": [1e8], "c2": [1], "c4": [3]}}}"#;
+            "damping": [[2]], "cubic": [1e5],
+            "higher": {"quintic": [1e6], "septic": [1e8], "damping_quadratic": [1], "damping_quartic": [3]}}}"#;
         let text = converted(HIGHER, Target::Matlab, false).unwrap().text;
         let unit = |name: &str| {
             let line = text.lines().find(|line| line.contains(name));

@@ -100,13 +100,24 @@ fn the_scatter_of_the_slip_is_in_the_joint_file() {
     bench.done(PREDICT);
     let file = bench.json("j.joint.json");
     let law = &file["uncertainty"]["standard_deviation"]["friction"][0];
-    assert_eq!((law["dof"].as_str(), law["law"].as_str()), (Some("y"), Some("iwan")));
+    assert_eq!(
+        (law["dof"].as_str(), law["law"].as_str()),
+        (Some("y"), Some("iwan"))
+    );
     close(number(&law["slip_force"]), 0.1 * 0.3 * 2e6 * 0.06, 0.05);
     assert_eq!(number(&law["ratio"]), 0.0);
-    has(&bench.done("show j.joint.json").stdout, &["slip_force 36000.0 ± 3"]);
-    let rows = bench.done("compare j.joint.json j.joint.json --json").json();
+    has(
+        &bench.done("show j.joint.json").stdout,
+        &["slip_force 36000.0 ± 3"],
+    );
+    let rows = bench
+        .done("compare j.joint.json j.joint.json --json")
+        .json();
     let rows = rows["rows"].as_array().unwrap();
-    let row = rows.iter().find(|row| row["name"] == "iwan.slip_force_y").unwrap();
+    let row = rows
+        .iter()
+        .find(|row| row["name"] == "iwan.slip_force_y")
+        .unwrap();
     assert_eq!(row["standard_deviations"][0], law["slip_force"]);
 }
 

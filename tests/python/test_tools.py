@@ -57,7 +57,7 @@ def test_convert_writes_what_the_command_line_writes(run, demo, tmp_path):
 def test_an_assembly_may_be_a_study(run, tmp_path):
     study = bolted_joint.Study.read(EXAMPLES / "two-beams/beams.toml")
     look = bolted_joint.show(study)
-    assert look.kind == bolted_joint.show(EXAMPLES / "two-beams/beams.toml").kind == "assembly file"
+    assert look.kind == bolted_joint.show(EXAMPLES / "two-beams/beams.toml").kind == "assembly of structures and joints"
     assert bolted_joint.check(study).sound
     run("convert", EXAMPLES / "two-beams/beams.toml", "--to", "modelica", "-o", tmp_path / "beams.mo")
     expected = (tmp_path / "beams.mo").read_text()

@@ -58,7 +58,7 @@ def test_a_strict_checker_finds_words_that_there_are_not(tmp_path):
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir=/dev/null", script]
     checked = subprocess.run(command, capture_output=True, text=True, check=False)
     assert checked.returncode == 1
-    assert [line.split(":")[1] for line in checked.stdout.splitlines() if "error" in line] == ["4", "5"]
+    assert [line.split(":")[1] for line in checked.stdout.splitlines() if ": error:" in line] == ["4", "5"]
 
 
 def test_public_words_name_no_private_module():

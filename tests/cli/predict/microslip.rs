@@ -108,7 +108,7 @@ fn the_scatter_of_the_slip_is_in_the_joint_file() {
     assert_eq!(number(&law["ratio"]), 0.0);
     has(
         &bench.done("show j.joint.json").stdout,
-        &["slip_force 36000.0 ± 3"],
+        &["slip_force 36000 ± 3"],
     );
     let rows = bench
         .done("compare j.joint.json j.joint.json --json")

@@ -15,7 +15,8 @@ const WIDTH: usize = 16;
 const DIGITS: usize = 9;
 /// Largest number that stands behind KBJ and CBJ in the name of a matrix.
 const LARGEST_BEHIND_THREE_LETTERS: u32 = 99_999;
-/// Largest number that stands behind K and C.
+/// First number that stands behind K and C, and the largest one.
+const FIRST_BEHIND_ONE_LETTER: u32 = LARGEST_BEHIND_THREE_LETTERS + 1;
 const LARGEST_BEHIND_ONE_LETTER: u32 = 9_999_999;
 
 /// A number in single precision.
@@ -37,9 +38,10 @@ fn double(value: f64) -> String {
 
 /// Names of the matrices of stiffness and damping.
 fn matrix_names(number: u32) -> Result<[String; 2], ConvertError> {
+    let named = |prefixes: [&str; 2]| Ok(prefixes.map(|prefix| format!("{prefix}{number}")));
     match number {
-        ..=LARGEST_BEHIND_THREE_LETTERS => Ok([format!("KBJ{number}"), format!("CBJ{number}")]),
-        ..=LARGEST_BEHIND_ONE_LETTER => Ok([format!("K{number}"), format!("C{number}")]),
+        0..=LARGEST_BEHIND_THREE_LETTERS => named(["KBJ", "CBJ"]),
+        FIRST_BEHIND_ONE_LETTER..=LARGEST_BEHIND_ONE_LETTER => named(["K", "C"]),
         _ => Err(ConvertError::Numbers {
             key: "--first-number",
             found: number.to_string(),
@@ -181,7 +183,7 @@ mod tests {
             .lines()
             .filter(|line| line.starts_with('*') || line.starts_with("DMIG*"));
         let values: Vec<&str> = fields
-            .flat_map(|line| line[8..].as_bytes().chunks(16))
+            .flat_map(|line| line.as_bytes()[8..].chunks(16))
             .map(|own| std::str::from_utf8(own).unwrap().trim())
             .filter(|own| own.contains('.'))
             .collect();

@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn units_in_comments_have_their_powers() {
-        const HIGHER: &str = r#"{"format": "bolted-joint/1", "name": "h", "joint": {"dofs": ["theta"], "stiffness": [[1e4]],
+        const HIGHER: &str = r#"{"format": "bolted-joint/1", "name": "h", "joint": {"dofs": ["rz"], "stiffness": [[1e4]],
             "damping": [[2]], "cubic": [1e5],
             "higher": {"quintic": [1e6], "septic": [1e8], "damping_quadratic": [1], "damping_quartic": [3]}}}"#;
         let text = converted(HIGHER, Target::Matlab, false).unwrap().text;
@@ -261,11 +261,11 @@ mod tests {
         };
         // a moment over a power of an angle
         for (name, expected) in [
-            ("p.k3_theta =", "N.m/rad^3"),
-            ("p.k5_theta =", "N.m/rad^5"),
-            ("p.k7_theta =", "N.m/rad^7"),
-            ("p.c2_theta =", "N.m.s/rad^3"),
-            ("p.c4_theta =", "N.m.s/rad^5"),
+            ("p.k3_rz =", "N.m/rad^3"),
+            ("p.k5_rz =", "N.m/rad^5"),
+            ("p.k7_rz =", "N.m/rad^7"),
+            ("p.c2_rz =", "N.m.s/rad^3"),
+            ("p.c4_rz =", "N.m.s/rad^5"),
         ] {
             assert_eq!(unit(name).as_deref(), Some(expected), "{name}: {text}");
         }

@@ -49,6 +49,12 @@ pub(super) enum CliError {
         study: PathBuf,
         key: String,
     },
+    #[error("{}: cannot be read: {source}; give the path of {expected}", path.display())]
+    Unreadable {
+        path: PathBuf,
+        source: io::Error,
+        expected: &'static str,
+    },
     #[error("{}: found {found}, expected {expected}; {instead}", path.display())]
     Kind {
         path: PathBuf,

@@ -1,13 +1,31 @@
 //! Another kind of file than a command takes: the message names the command that takes it.
 
+use std::fs;
 use std::path::Path;
 
 use bolted_joint::show::{FileKind, command_for};
 
 use super::error::CliError;
 
-/// Refuses a file that is of a kind which the command does not take; what is of no known kind is left to its reader's message.
+/// Refuses a file that is not there, or of a kind which the command does not take; what is of no known kind is left to its
+/// reader's message.
 pub(super) fn expect(
+    path: &Path,
+    expected: &'static str,
+    takes: impl Fn(FileKind) -> bool,
+) -> Result<FileKind, CliError> {
+    if let Err(source) = fs::metadata(path) {
+        return Err(CliError::Unreadable {
+            path: path.to_owned(),
+            source,
+            expected,
+        });
+    }
+    expect_kind(path, expected, takes)
+}
+
+/// The same for a command whose files have one reader, which knows best what to say of one that is not there.
+fn expect_kind(
     path: &Path,
     expected: &'static str,
     takes: impl Fn(FileKind) -> bool,
@@ -30,7 +48,7 @@ pub(super) fn expect(
 
 /// A study.
 pub(super) fn expect_study(path: &Path) -> Result<(), CliError> {
-    expect(path, "a study (TOML)", |kind| {
+    expect_kind(path, "a study (TOML)", |kind| {
         matches!(kind, FileKind::Study(_) | FileKind::OtherJson)
     })
     .map(|_| ())
@@ -38,7 +56,7 @@ pub(super) fn expect_study(path: &Path) -> Result<(), CliError> {
 
 /// A joint file.
 pub(super) fn expect_joint_file(path: &Path) -> Result<(), CliError> {
-    expect(path, "a joint file (JSON)", |kind| {
+    expect_kind(path, "a joint file (JSON)", |kind| {
         matches!(kind, FileKind::JointFile | FileKind::OtherJson)
     })
     .map(|_| ())

@@ -3,7 +3,9 @@
 use bolted_joint_testing::has;
 use std::io::{Cursor, Write as _};
 
-use bolted_joint::frf::{ReadOptions, Selection, UnitSystem, read_frfs, read_npz_from};
+use bolted_joint::frf::{
+    ReadOptions, Selection, UnitSystem, read_frfs, read_npz_from, structure::NamedMatrices,
+};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -70,6 +72,54 @@ fn only_what_is_asked_for_is_kept_and_units_can_be_stated() {
         let expected = 0.25e-3 * super::oscillator(7.5);
         assert!((function.receptance()[0] - expected).norm() <= 1e-6 * expected.norm());
     }
+}
+
+/// An archive with arrays of these names, each of one number.
+fn archive_of(names: &[&str]) -> Vec<u8> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for name in names {
+        zip.start_file(format!("{name}.npy"), SimpleFileOptions::default())
+            .unwrap();
+        let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1), }\n";
+        zip.write_all(b"\x93NUMPY\x01\x00").unwrap();
+        zip.write_all(&(header.len() as u16).to_le_bytes()).unwrap();
+        zip.write_all(header.as_bytes()).unwrap();
+        zip.write_all(&1.0_f64.to_le_bytes()).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+/// What is missing is told with the arrays of its own kind: matrices have no frequencies, functions no points.
+#[test]
+fn functions_and_matrices_are_told_apart_where_arrays_are_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("b.npz");
+    let matrices = archive_of(&["M", "K", "C"]);
+    std::fs::write(&path, &matrices).unwrap();
+    let refused = NamedMatrices::read(&path).unwrap_err().to_string();
+    has(
+        &refused,
+        &[
+            "found the arrays M, K, C, expected points",
+            "numpy.savez(file, M=…, K=…, C=…, points=[…])",
+        ],
+    );
+    assert!(!refused.contains("frf"), "{refused}");
+    let read = |bytes: Vec<u8>| {
+        let refused = read_npz_from(Cursor::new(bytes), "b.npz", &ReadOptions::default());
+        refused.unwrap_err().to_string()
+    };
+    let refused = read(matrices);
+    has(&refused, &["matrices of a structure", "the key `matrices`"]);
+    assert!(!refused.contains("numpy.savez"), "{refused}");
+    let refused = read(archive_of(&["frf"]));
+    has(
+        &refused,
+        &[
+            "expected frequency (Hz)",
+            "numpy.savez(file, frequency=…, frf=…, response=…, reference=…)",
+        ],
+    );
 }
 
 /// A small file in which a deflated matrix of zeros stands for more functions than there is memory for.

@@ -159,7 +159,13 @@ fn what_is_no_fmu_is_said_to_be_none() {
     bench.refused("check other.zip", &["other.zip: `modelDescription.xml` is missing", "expected an FMU"]);
     bench.write("picture.png", PNG);
     bench.refused("check picture.png", &["picture.png: found bytes that are no text", "expected a joint file"]);
-    bench.refused("check missing.fmu", &["missing.fmu: cannot be read"]);
+    for name in ["missing.fmu", "missing.toml", "missing"] {
+        let expected = "give the path of a joint file (JSON), an assembly file (TOML) or an FMU";
+        bench.refused(
+            &format!("check {name}"),
+            &[&format!("{name}: cannot be read"), expected],
+        );
+    }
     bench.refused("export lap.fmu -o o.fmu", &["lap.fmu: found an FMU, expected a joint file (JSON)", "`bolted-joint check lap.fmu`"]);
 }
 

@@ -47,6 +47,43 @@ fn a_law_on_a_dof_is_part_of_the_joint() {
     assert!(!with("[]").unwrap().to_json().unwrap().contains("friction"));
 }
 
+/// `GOOD` with a law on y, and these deviations of laws.
+fn with_deviations(deviations: &str) -> Result<JointFile, String> {
+    let text = with(&format!("[{ON_Y}]")).unwrap().to_json().unwrap();
+    let known = format!(
+        r#""uncertainty": {{ "basis": "made up", "standard_deviation": {{ "stiffness": [[1, 1], [1, 1]], "damping": [[1, 1], [1, 1]],
+        "friction": {deviations} }} }}, "joint""#
+    );
+    let text = text.replacen("\"joint\"", &known, 1);
+    JointFile::from_json(&text, "m10.joint.json").map_err(|refused| refused.to_string())
+}
+
+#[test]
+fn numbers_of_laws_may_have_deviations() {
+    let own = r#"[{ "dof": "y", "law": "jenkins", "stiffness": 2e4, "slip_force": 0 }]"#;
+    let file = with_deviations(own).unwrap();
+    let known = &file.uncertainty.as_ref().unwrap().standard_deviation;
+    assert_eq!(known.friction[0].parameters, [2e4, 0.0]);
+    let written = file.to_json().unwrap();
+    assert_eq!(JointFile::from_json(&written, "").unwrap(), file);
+    // of other laws than the joint has, or below zero
+    for (from, to, says) in [
+        (
+            "\"y\"",
+            "\"theta\"",
+            "found \"jenkins on theta\", expected the laws of the joint in their order, \"jenkins on y\"",
+        ),
+        (
+            "2e4",
+            "-2e4",
+            "uncertainty.standard_deviation.friction[0].stiffness: found -20000",
+        ),
+    ] {
+        let refused = with_deviations(&own.replace(from, to)).unwrap_err();
+        assert!(refused.contains(says), "{refused}");
+    }
+}
+
 #[test]
 fn laws_that_do_not_fit_are_refused_by_their_key() {
     for (friction, fragments) in [

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import bolted_joint
-from bolted_joint import BoltedJointError, Joint
+from bolted_joint import BoltedJointError, Functions, Joint
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 M10 = ROOT / "tests/data/joint/m10-aluminium.joint.json"
@@ -38,6 +38,13 @@ WRONG = {
     "a study of a number": (lambda: bolted_joint.Study.read(5), "path: .* int, expected a path"),
     "seed alone": (lambda: bolted_joint.identify({}, seed=3), "seed: found 3 without bootstrap, expected both"),
     "bootstrap below 0": (lambda: bolted_joint.identify({}, bootstrap=-3), "bootstrap: found -3, expected a whole"),
+    "bootstrap of one": (lambda: bolted_joint.identify({}, bootstrap=1), "bootstrap: found 1, .* number from 2 on"),
+    "an empty study": (lambda: bolted_joint.identify({}), "study: found an empty dictionary, expected the tables"),
+    "an empty joint": (lambda: Joint({}), r'data: found a dictionary without data\["joint"\], expected what a joint'),
+    "a joint of a format": (lambda: Joint({"format": "x"}), r'data: found a dictionary without data\["joint"\]'),
+    "a joint without K": (lambda: Joint({"name": "x", "joint": {"dofs": ["y"]}}), r'data\["joint"\]\["stiffness"\]'),
+    "functions of a text": (lambda: Functions([1.0], "abc", ["1:Y"], ["1:Y"]), "values: found what is no array of num"),
+    "functions over a text": (lambda: Functions("abc", [1.0], ["1:Y"], ["1:Y"]), "frequency_hz: found what is no arr"),
     "bootstrap with a point": (lambda: bolted_joint.identify({}, bootstrap=3.0), "bootstrap: found 3.0, expected"),
     "draws below 0": (lambda: bolted_joint.draw({}, range(-2, 2), bootstrap=4), "numbers: .* expected a range"),
     "add below 0": (lambda: bolted_joint.respond(PLAN, plan=True, add=-1), "add: found -1, expected a whole number"),
@@ -58,6 +65,35 @@ def test_what_is_wrong_is_named_as_python_has_it(name, monkeypatch, tmp_path):
     with pytest.raises(BoltedJointError, match=said) as refused:
         call()
     assert "--" not in str(refused.value) and "Usage" not in str(refused.value)
+
+
+def test_a_joint_takes_arrays_as_a_study_does(tmp_path):
+    stiffness = np.array([[2e6, 1e3], [1e3, 4e2]])
+    joint = Joint({
+        "format": "bolted-joint/1",
+        "name": "of arrays",
+        "joint": {"dofs": np.array(["y", "theta"]), "stiffness": stiffness, "damping": 1e-5 * stiffness},
+    })
+    joint.save(tmp_path / "x.joint.json")
+    np.testing.assert_array_equal(Joint.read(tmp_path / "x.joint.json").stiffness, stiffness)
+    assert bolted_joint.check(joint).sound and repr(joint) == "<Joint 'of arrays': y, theta>"
+    joint.data["joint"]["stiffness"][0, 0] = np.nan
+    with pytest.raises(BoltedJointError, match=r'data\["joint"\]\["stiffness"\]\[0\]\[0\]: found nan'):
+        joint.save(tmp_path / "x.joint.json")
+
+
+def test_a_text_that_is_no_path_is_no_files(demo, tmp_path):
+    """Files that are called as words of a study are: a key says what is a path, not the folder."""
+    study = bolted_joint.Study.read(demo / "study.toml")
+    for word in ("y", "theta", "full", "Y", "frf-decoupling"):
+        (tmp_path / word).touch()
+    (tmp_path / "assembly.uff").write_bytes((demo / "assembly.uff").read_bytes())
+    for name in ("a-modes.toml", "b-modes.toml"):
+        if (demo / name).exists():
+            (tmp_path / name).write_bytes((demo / name).read_bytes())
+    found = bolted_joint.identify(bolted_joint.Study(study, tmp_path), rivals=False)
+    expected = bolted_joint.identify(study, rivals=False)
+    np.testing.assert_array_equal(found.joint.stiffness, expected.joint.stiffness)
 
 
 def test_whole_numbers_may_be_those_of_numpy(short):

@@ -1,11 +1,14 @@
 """`show`, `compare`, `convert`, FMUs of assemblies, and functions of which some pairs were not measured."""
 
 import json
+import pathlib
 
 import numpy as np
 import pytest
 
 import bolted_joint
+
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 
 
 def test_show_tells_what_the_command_line_tells(run, demo):
@@ -49,6 +52,18 @@ def test_convert_writes_what_the_command_line_writes(run, demo, tmp_path):
     assert cards(path.read_text()) == cards((tmp_path / "a.bdf").read_text()) != []
     with pytest.raises(bolted_joint.BoltedJointError, match="'gmsh'"):
         bolted_joint.convert(joint, "gmsh", tmp_path / "c")
+
+
+def test_an_assembly_may_be_a_study(run, tmp_path):
+    study = bolted_joint.Study.read(EXAMPLES / "two-beams/beams.toml")
+    look = bolted_joint.show(study)
+    assert look.kind == bolted_joint.show(EXAMPLES / "two-beams/beams.toml").kind == "assembly of structures and joints"
+    assert bolted_joint.check(study).sound
+    run("convert", EXAMPLES / "two-beams/beams.toml", "--to", "modelica", "-o", tmp_path / "beams.mo")
+    expected = (tmp_path / "beams.mo").read_text()
+    assert bolted_joint.convert(study, "modelica", tmp_path / "beams.mo").read_text() == expected
+    with pytest.raises(bolted_joint.BoltedJointError, match="modelica: an assembly is converted for Modelica alone"):
+        bolted_joint.convert(study, "nastran", tmp_path / "beams.bdf")
 
 
 def test_an_assembly_becomes_an_fmu(demo, tmp_path):

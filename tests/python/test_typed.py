@@ -43,6 +43,24 @@ def test_a_strict_checker_finds_nothing_in_what_users_write(tmp_path):
     assert checked.returncode == 0, checked.stdout
 
 
+WRONG = """
+import bolted_joint
+
+bolted_joint.export("x.joint.json", "x.fmu", fmi=1)
+bolted_joint.convert("x.joint.json", "adams", "x.txt")
+"""
+
+
+def test_a_strict_checker_finds_words_that_there_are_not(tmp_path):
+    pytest.importorskip("mypy")
+    script = tmp_path / "script.py"
+    script.write_text(WRONG, encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir=/dev/null", script]
+    checked = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert checked.returncode == 1
+    assert [line.split(":")[1] for line in checked.stdout.splitlines() if ": error:" in line] == ["4", "5"]
+
+
 def test_public_words_name_no_private_module():
     for name in bolted_joint.__all__:
         public = getattr(bolted_joint, name)

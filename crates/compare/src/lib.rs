@@ -132,6 +132,26 @@ mod tests {
     }
 
     #[test]
+    fn numbers_of_laws_have_their_deviations() {
+        let slipping = |slip_force: f64, deviation: f64| {
+            let text = format!(
+                r#"{{"format": "bolted-joint/1", "name": "x", "joint": {{"dofs": ["y"], "stiffness": [[0]], "damping": [[0]],
+                "friction": [{{"dof": "y", "law": "jenkins", "stiffness": 1e5, "slip_force": {slip_force}}}]}},
+                "uncertainty": {{"basis": "made up", "standard_deviation": {{"stiffness": [[0]], "damping": [[0]],
+                "friction": [{{"dof": "y", "law": "jenkins", "stiffness": 0, "slip_force": {deviation}}}]}}}}}}"#
+            );
+            JointFile::from_json(&text, "x").unwrap()
+        };
+        let joints = [slipping(100.0, 3.0), slipping(110.0, 4.0)].map(|own| ("j".to_owned(), own));
+        let found = Comparison::of(&joints).unwrap();
+        let row = |name: &str| found.rows.iter().find(|row| row.name == name).unwrap();
+        // √(3² + 4²) = 5
+        let difference = row("jenkins.slip_force_y").differences[0].unwrap();
+        assert!((difference.deviations.unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(row("jenkins.stiffness_y").values[0].deviation, None);
+    }
+
+    #[test]
     fn joints_of_other_kinds_are_refused() {
         let sliding =
             r#", "friction": [{"dof": "y", "law": "jenkins", "stiffness": 1e5, "slip_force": 10}]"#;

@@ -175,10 +175,16 @@ fn friction(files: &[&JointFile], rows: &mut Vec<Row>) {
         let number = first.joint.friction[..place].iter().filter(is_same).count();
         for (parameter, _) in law.law.parameters.iter().zip(&law.parameters) {
             let values = files.iter().map(|file| {
-                let own = file.joint.friction.iter().filter(is_same).nth(number);
+                let own = |laws: &[Friction]| {
+                    let own = laws.iter().filter(is_same).nth(number)?;
+                    own.value(parameter)
+                };
+                let deviations = file.uncertainty.as_ref();
+                let deviation =
+                    deviations.and_then(|known| own(&known.standard_deviation.friction));
                 Measured {
-                    value: own.and_then(|own| own.value(parameter)).unwrap_or(0.0),
-                    deviation: None,
+                    value: own(&file.joint.friction).unwrap_or(0.0),
+                    deviation: deviation.filter(|own| *own > 0.0),
                 }
             });
             let behind = if number == 0 {

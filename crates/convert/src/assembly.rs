@@ -8,7 +8,7 @@ use bolted_joint_dynamics::Dof;
 use bolted_joint_files::{TOOL, VERSION};
 use nalgebra::RowDVector;
 
-use crate::head::ascii;
+use crate::head::{ascii, comment, origin};
 use crate::reserved;
 use crate::{ConvertError, Converted, Options, Target, convert};
 
@@ -72,6 +72,9 @@ pub fn convert_assembly(
                 source: Box::new(source),
             }
         })?;
+        for note in origin(&joint.file) {
+            text += &comment("  // ", &format!("{}: {note}", own.identifier));
+        }
         let lines = converted
             .text
             .lines()

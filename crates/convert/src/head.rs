@@ -2,13 +2,17 @@
 
 use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS};
 use bolted_joint_files::{TOOL, VERSION, number};
-use bolted_joint_joint::JointFile;
+use bolted_joint_joint::{JointFile, unit};
 
 use crate::linear::axis_of;
 use crate::{Options, Target};
 
 /// Digits of a deviation.
 const DIGITS: usize = 2;
+/// Columns of a comment's line: as many as Nastran reads, the fewest of all.
+const COLUMNS: usize = 80;
+/// What a line begins with that goes on with the one above.
+const CONTINUED: &str = "  ";
 
 /// Lines for people, and notes that are told beside them.
 #[derive(Clone, Debug)]
@@ -49,6 +53,7 @@ impl Head {
                 number(high, 5)
             ));
         }
+        lines.extend(origin(file).map(str::to_owned));
         let mut head = Self {
             lines,
             notes: Vec::new(),
@@ -74,13 +79,38 @@ impl Head {
     /// The lines as comments.
     pub(crate) fn comments(&self, prefix: &str) -> String {
         let lines = self.lines.iter();
-        lines
-            .map(|line| format!("{prefix}{}\n", ascii(line)))
-            .collect()
+        lines.map(|line| comment(prefix, line)).collect()
     }
 }
 
-/// A line for K and C each.
+/// What the joint file tells of where the joint comes from: its axes, what is held, what is missing.
+pub(crate) fn origin(file: &JointFile) -> impl Iterator<Item = &str> {
+    let own = file.provenance.iter();
+    own.flat_map(|own| own.notes.iter().map(String::as_str))
+}
+
+/// A text as a comment, on as many lines as it takes.
+pub(crate) fn comment(prefix: &str, text: &str) -> String {
+    let mut comment = String::new();
+    let mut line = prefix.to_owned();
+    let mut is_empty = true;
+    for word in text.split_whitespace().map(ascii) {
+        if !is_empty && line.len() + 1 + word.len() > COLUMNS {
+            comment += &line;
+            comment.push('\n');
+            line = format!("{prefix}{CONTINUED}");
+            is_empty = true;
+        }
+        if !is_empty {
+            line.push(' ');
+        }
+        line += &word;
+        is_empty = false;
+    }
+    comment + &line + "\n"
+}
+
+/// A line for K and C each, and for each law.
 fn deviations(file: &JointFile) -> Vec<String> {
     let Some(uncertainty) = &file.uncertainty else {
         return Vec::new();
@@ -103,20 +133,90 @@ fn deviations(file: &JointFile) -> Vec<String> {
         let entries: Vec<String> = entries.collect();
         (!entries.is_empty()).then(|| format!("Standard deviations: {}", entries.join(", ")))
     });
-    told.collect()
+    let of_laws = own.friction.iter().filter_map(|law| {
+        let of_parameter = |parameter: &Parameter| {
+            let deviation = law.value(parameter).filter(|own| *own > 0.0)?;
+            let unit = match unit(parameter.unit, law.dof.kind, law.dof.kind) {
+                one if one == "1" => String::new(),
+                unit => format!(" {unit}"),
+            };
+            Some(format!(
+                "{} {}{unit}",
+                parameter.key,
+                number(deviation, DIGITS)
+            ))
+        };
+        let entries: Vec<String> = law.law.parameters.iter().filter_map(of_parameter).collect();
+        (!entries.is_empty()).then(|| {
+            let (law, dof) = (law.law.name, law.dof.name);
+            format!(
+                "Standard deviations of {law} on {dof}: {}",
+                entries.join(", ")
+            )
+        })
+    });
+    told.chain(of_laws).collect()
 }
 
 /// A text that every reader takes, on one line.
 pub(crate) fn ascii(text: &str) -> String {
-    text.chars()
-        .map(|c| match c {
-            '·' => '.',
-            '×' => 'x',
-            '−' | '–' => '-',
+    let mut ascii = String::new();
+    let mut is_raised = false;
+    for c in text.chars() {
+        let digit = RAISED.iter().position(|own| *own == c);
+        if digit.is_some() && !is_raised {
+            ascii.push('^');
+        }
+        is_raised = digit.is_some();
+        match c {
+            '·' => ascii.push('.'),
+            '×' => ascii.push('x'),
+            '−' | '–' => ascii.push('-'),
+            '±' => ascii += "+-",
+            'θ' => ascii += "theta",
+            'σ' => ascii += "sigma",
+            'χ' => ascii += "chi",
+            'κ' => ascii += "kappa",
             // ends a command in APDL
-            '$' => '?',
-            ' '..='~' => c,
-            _ => '?',
-        })
-        .collect()
+            '$' => ascii.push('?'),
+            ' '..='~' => ascii.push(c),
+            _ => match digit {
+                Some(digit) => ascii += &digit.to_string(),
+                None => ascii.push('?'),
+            },
+        }
+    }
+    ascii
+}
+
+/// Digits of powers, from 0.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_reader_takes_the_letters() {
+        for (text, expected) in [
+            ("N·m·s/rad⁵", "N.m.s/rad^5"),
+            ("N/m¹¹", "N/m^11"),
+            ("½ × θ ± 2 − $", "? x theta +- 2 - ?"),
+        ] {
+            assert_eq!(ascii(text), expected);
+        }
+    }
+
+    #[test]
+    fn comments_are_wrapped_between_words() {
+        let text = "word ".repeat(40);
+        let comment = comment("** ", &text);
+        assert!(
+            comment
+                .lines()
+                .all(|line| line.starts_with("** ") && line.len() <= COLUMNS)
+        );
+        assert_eq!(comment.matches("word").count(), 40);
+        assert_eq!(super::comment("! ", "\n"), "! \n");
+    }
 }

@@ -106,11 +106,7 @@ pub fn convert(
     match target {
         Target::Matlab => matlab::function(file, options, head),
         Target::Modelica => modelica::package(file, options, head),
-        Target::Nastran => Ok(nastran::deck(
-            &Linear::of(file, target, options)?,
-            options,
-            head,
-        )),
+        Target::Nastran => nastran::deck(&Linear::of(file, target, options)?, options, head),
         Target::Abaqus => Ok(abaqus::deck(
             &Linear::of(file, target, options)?,
             options,
@@ -193,8 +189,85 @@ mod tests {
             ] {
                 assert!(text.contains(expected), "{target:?}: {expected}: {text}");
             }
+            // what people read is not wider than the cards of Nastran
+            let marks = ["$ ", "** ", "! ", "% ", "// "];
+            let comments = text
+                .lines()
+                .filter(|line| marks.iter().any(|mark| line.starts_with(mark)));
+            for line in comments {
+                assert!(line.len() <= 80, "{target:?}: {line}");
+            }
             assert!(text.is_ascii(), "{target:?}");
             assert!(text.ends_with('\n'), "{target:?}");
+        }
+    }
+
+    /// Words of a text without the marks of comments.
+    fn words(text: &str) -> String {
+        let words = text.split_whitespace();
+        let words: Vec<&str> = words
+            .filter(|word| !["$", "**", "!", "%", "//"].contains(word))
+            .collect();
+        words.join(" ")
+    }
+
+    #[test]
+    fn every_tool_gets_the_notes_of_the_joint_file() {
+        const NOTED: &str = r#"{"format": "bolted-joint/1", "name": "noted", "joint": {"dofs": ["y", "theta"],
+            "stiffness": [[5.73e5, 0], [0, 1290]], "damping": [[10.83, 0], [0, 0.083]]},
+            "provenance": {"tool": "t", "version": "1", "method": "m", "model": "full", "notes": [
+            "This is the contact alone, not the joint: the bolt and the bending of the parts where they overlap are missing.",
+            "Motions of the interface (normal z): y along x, theta about -y; the other relative motions are held at zero."]}}"#;
+        for target in ALL {
+            let text = words(&converted(NOTED, target, false).unwrap().text);
+            for expected in [
+                "This is the contact alone, not the joint: the bolt and the bending of the parts where they overlap are missing.",
+                "Motions of the interface (normal z): y along x, theta about -y; the other relative motions are held at zero.",
+            ] {
+                assert!(text.contains(expected), "{target:?}: {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn deviations_of_laws_are_told() {
+        const SLIPPING: &str = r#"{"format": "bolted-joint/1", "name": "s", "joint": {"dofs": ["y"], "stiffness": [[0]],
+            "damping": [[0]], "friction": [{"dof": "y", "law": "jenkins", "stiffness": 1e5, "slip_force": 10}]},
+            "uncertainty": {"basis": "made up", "standard_deviation": {"stiffness": [[0]], "damping": [[0]],
+            "friction": [{"dof": "y", "law": "jenkins", "stiffness": 3e3, "slip_force": 0.7}]}}}"#;
+        for target in ALL {
+            let text = words(&converted(SLIPPING, target, true).unwrap().text);
+            let expected =
+                "Standard deviations of jenkins on y: slip_force 0.70 N, stiffness 3000 N/m";
+            let turned =
+                "Standard deviations of jenkins on y: stiffness 3000 N/m, slip_force 0.70 N";
+            assert!(
+                text.contains(expected) || text.contains(turned),
+                "{target:?}: {text}"
+            );
+        }
+    }
+
+    #[test]
+    fn units_in_comments_have_their_powers() {
+        const HIGHER: &str = r#"{"format": "bolted-joint/1", "name": "h", "joint": {"dofs": ["rz"], "stiffness": [[1e4]],
+            "damping": [[2]], "cubic": [1e5],
+            "higher": {"quintic": [1e6], "septic": [1e8], "damping_quadratic": [1], "damping_quartic": [3]}}}"#;
+        let text = converted(HIGHER, Target::Matlab, false).unwrap().text;
+        let unit = |name: &str| {
+            let line = text.lines().find(|line| line.contains(name));
+            line.and_then(|line| line.split("% ").nth(1))
+                .map(str::to_owned)
+        };
+        // a moment over a power of an angle
+        for (name, expected) in [
+            ("p.k3_rz =", "N.m/rad^3"),
+            ("p.k5_rz =", "N.m/rad^5"),
+            ("p.k7_rz =", "N.m/rad^7"),
+            ("p.c2_rz =", "N.m.s/rad^3"),
+            ("p.c4_rz =", "N.m.s/rad^5"),
+        ] {
+            assert_eq!(unit(name).as_deref(), Some(expected), "{name}: {text}");
         }
     }
 

@@ -100,11 +100,7 @@ fn terms(file: &JointFile, parameters: &mut String, equations: &mut String) {
                 continue;
             }
             let (key, row) = (format!("{}_{}", term.row().symbol, dof.name), place + 1);
-            let unit = ascii(
-                &unit(term.row().unit, dof.kind, dof.kind)
-                    .replace('³', "3")
-                    .replace('²', "2"),
-            );
+            let unit = ascii(&unit(term.row().unit, dof.kind, dof.kind));
             let [of_r, of_rate] = term.powers();
             let rate = if of_rate == 1 {
                 format!(" * rate({row})")

@@ -1,5 +1,7 @@
 //! The shortest step at which a loop becomes unstable.
 
+use std::cmp::Ordering;
+
 use nalgebra::{DMatrix, Schur};
 
 /// How long the communication step may be.
@@ -26,13 +28,18 @@ impl StepBound {
         }
     }
 
-    /// The shorter of two.
+    /// The shorter of two; what was looked at in vain is shorter than where nothing moves.
     #[must_use]
     pub fn min(self, other: Self) -> Self {
-        if other.seconds() < self.seconds() {
-            other
-        } else {
-            self
+        // what is known to be stable, where nothing unstable was found
+        let looked_at = |bound: Self| match bound {
+            Self::NotBelow(seconds) => seconds,
+            Self::Below(_) | Self::Never | Self::Nothing => f64::INFINITY,
+        };
+        let order = self.seconds().total_cmp(&other.seconds());
+        match order.then(looked_at(self).total_cmp(&looked_at(other))) {
+            Ordering::Greater => other,
+            Ordering::Less | Ordering::Equal => self,
         }
     }
 }
@@ -101,4 +108,27 @@ fn growth(generator: &DMatrix<f64>, step_s: f64) -> Option<f64> {
         .map(|mu| 2.0 * mu.re + step_s * mu.norm_sqr())
         .fold(f64::NEG_INFINITY, f64::max);
     Some(growth)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::StepBound::{Below, Never, NotBelow, Nothing};
+
+    #[test]
+    fn the_shorter_bound_is_the_one_that_says_more() {
+        let by_length = [
+            Never,
+            Below(1e-6),
+            Below(1e-3),
+            NotBelow(1e-6),
+            NotBelow(1.0),
+            Nothing,
+        ];
+        for (place, shorter) in by_length.iter().enumerate() {
+            for longer in &by_length[place..] {
+                assert_eq!(shorter.min(*longer), *shorter);
+                assert_eq!(longer.min(*shorter), *shorter);
+            }
+        }
+    }
 }

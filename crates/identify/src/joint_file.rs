@@ -304,6 +304,7 @@ fn deviations(model: JointModel, deviation: &[f64]) -> StandardDeviation {
     StandardDeviation {
         stiffness: rows(&matrices.stiffness),
         damping: rows(&matrices.damping),
+        ..StandardDeviation::default()
     }
 }
 

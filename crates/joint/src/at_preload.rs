@@ -64,6 +64,19 @@ impl Place {
         rows.map(row).collect()
     }
 
+    fn laws(self, low: &[Friction], high: &[Friction]) -> Vec<Friction> {
+        let law = |(low, high): (&Friction, &Friction)| {
+            let parameters = low.parameters.iter().zip(&high.parameters);
+            Friction {
+                parameters: parameters
+                    .map(|(&low, &high)| self.between(low, high))
+                    .collect(),
+                ..low.clone()
+            }
+        };
+        low.iter().zip(high).map(law).collect()
+    }
+
     fn ends(self, low: &[Vec<[f64; 2]>], high: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
         let between = |(low, high): (&[f64; 2], &[f64; 2])| {
             [self.between(low[0], high[0]), self.between(low[1], high[1])]
@@ -190,18 +203,8 @@ impl Joint {
             return Ok(laws.map(|own| own.at_share_of_preload(share)).collect());
         }
         let place = Place::of(preload_n_m, table)?;
-        let at = |entry: usize| table.friction.get(entry).into_iter().flatten();
-        let pairs = at(place.lower).zip(at(place.lower + 1));
-        let between = pairs.map(|(low, high)| {
-            let parameters = low.parameters.iter().zip(&high.parameters);
-            Friction {
-                parameters: parameters
-                    .map(|(&low, &high)| place.between(low, high))
-                    .collect(),
-                ..low.clone()
-            }
-        });
-        Ok(between.collect())
+        let at = |entry: usize| table.friction.get(entry).map_or(&[][..], Vec::as_slice);
+        Ok(place.laws(at(place.lower), at(place.lower + 1)))
     }
 }
 
@@ -272,6 +275,7 @@ fn deviation(
     StandardDeviation {
         stiffness: place.matrix(&low.stiffness, &high.stiffness),
         damping: place.matrix(&low.damping, &high.damping),
+        friction: place.laws(&low.friction, &high.friction),
     }
 }
 

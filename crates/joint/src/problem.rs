@@ -85,6 +85,16 @@ pub enum JointProblem {
         /// Those at the first preload.
         expected: String,
     },
+    /// Deviations of other laws than the joint has.
+    #[error("{path}: found {found:?}, expected the laws of the joint in their order, {expected:?}")]
+    DeviationsOfOtherLaws {
+        /// Path of the list.
+        path: String,
+        /// Its laws, with their DOFs.
+        found: String,
+        /// Those of the joint.
+        expected: String,
+    },
     /// A law that would give energy between two preloads at which it takes it.
     #[error(
         "{path}: found {law} parameters that are linear from {low:?} to {high:?} N·m and at {between:?} N·m outside of the law's range, \

@@ -7,7 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
-use super::schema::{entries_above_zero, with_friction, with_friction_over_preload};
+use super::schema::{
+    entries_above_zero, with_friction, with_friction_deviations, with_friction_over_preload,
+};
 use super::{About, DofSet, Friction, HigherTerms, Status};
 
 /// A bolted joint, with what is known about it.
@@ -348,9 +350,9 @@ pub struct BootstrapRecord {
     pub interval_95: Intervals,
 }
 
-/// One standard deviation of each entry of the joint's matrices.
+/// One standard deviation of each entry of the joint's matrices, and of the numbers of its laws.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema), schemars(transform = with_friction_deviations))]
 #[serde(deny_unknown_fields)]
 pub struct StandardDeviation {
     /// Of K, in its units.
@@ -365,6 +367,11 @@ pub struct StandardDeviation {
         inner(length(min = 1, max = SPACE_COUNT), inner(range(min = 0)))
     ))]
     pub damping: Vec<Vec<f64>>,
+    /// Of the laws that remember, as these stand in `joint.friction` or at the same preload in its table: each number's
+    /// deviation in place of the number, 0 where none is known. Left out, none is known of any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(skip))]
+    pub friction: Vec<Friction>,
 }
 
 /// Where the joint's parameters hold.

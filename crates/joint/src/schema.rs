@@ -64,6 +64,19 @@ pub(super) fn with_friction_over_preload(table: &mut Schema) {
     }
 }
 
+/// Adds the list of the deviations of laws.
+pub(super) fn with_friction_deviations(deviation: &mut Schema) {
+    let list = json!({
+        "description": "Of the laws that remember, as these stand in `joint.friction` or at the same preload in its table: each \
+                        number's\ndeviation in place of the number, 0 where none is known. Left out, none is known of any.",
+        "$ref": "#/$defs/Joint/properties/friction"
+    });
+    let properties = deviation.get_mut("properties");
+    if let Some(properties) = properties.and_then(|properties| properties.as_object_mut()) {
+        properties.insert("friction".to_owned(), list);
+    }
+}
+
 impl JsonSchema for DofSet {
     fn schema_name() -> Cow<'static, str> {
         "DofSet".into()

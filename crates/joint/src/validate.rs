@@ -49,6 +49,20 @@ impl JointFile {
         if let Some(uncertainty) = &self.uncertainty {
             let deviation = &uncertainty.standard_deviation;
             check.deviation("uncertainty.standard_deviation", deviation);
+            let at_nominal = self
+                .joint
+                .over_preload
+                .as_ref()
+                .and_then(|table| table.friction.first());
+            let laws = match at_nominal {
+                Some(laws) if self.joint.friction.is_empty() => laws,
+                _ => &self.joint.friction,
+            };
+            check.friction_deviation(
+                "uncertainty.standard_deviation.friction",
+                &deviation.friction,
+                laws,
+            );
             if let Some(over_preload) = &uncertainty.over_preload {
                 let table = self.joint.over_preload.as_ref();
                 check.uncertainty_over_preload(over_preload, table);
@@ -82,6 +96,13 @@ impl JointFile {
         }
         check.problems
     }
+}
+
+/// Laws with their DOFs.
+fn names(laws: &[Friction]) -> Vec<String> {
+    let each = laws.iter();
+    each.map(|own| format!("{} on {}", own.law.name, own.dof.name))
+        .collect()
 }
 
 /// What the lists of a table over the preload are as long as.
@@ -204,11 +225,6 @@ impl Check {
         for (i, own) in table.friction.iter().enumerate() {
             let path = format!("{PATH}[{i}]");
             self.friction(&path, own);
-            let names = |laws: &[Friction]| {
-                let each = laws.iter();
-                each.map(|own| format!("{} on {}", own.law.name, own.dof.name))
-                    .collect::<Vec<_>>()
-            };
             let [found, expected] = [own, first].map(|laws| names(laws));
             if found != expected {
                 self.problems.push(JointProblem::OtherLaws {
@@ -330,6 +346,12 @@ impl Check {
                 &format!("{path}.standard_deviation"),
                 &at.standard_deviation,
             );
+            let laws = table.and_then(|table| table.friction.get(i));
+            self.friction_deviation(
+                &format!("{path}.standard_deviation.friction"),
+                &at.standard_deviation.friction,
+                laws.map_or(&[], Vec::as_slice),
+            );
             if let Some(free) = &at.free_estimate {
                 let path = format!("{path}.free_estimate");
                 self.matrix(&format!("{path}.stiffness"), &free.stiffness);
@@ -351,6 +373,27 @@ impl Check {
             self.matrix(&path, matrix);
             for (i, row) in matrix.iter().enumerate() {
                 self.not_negative(&format!("{path}[{i}]"), row, "a standard deviation");
+            }
+        }
+    }
+
+    /// Deviations of the numbers of `laws`, if there are any.
+    fn friction_deviation(&mut self, path: &str, deviations: &[Friction], laws: &[Friction]) {
+        if deviations.is_empty() {
+            return;
+        }
+        let [found, expected] = [deviations, laws].map(names);
+        if found != expected {
+            self.problems.push(JointProblem::DeviationsOfOtherLaws {
+                path: path.to_owned(),
+                found: found.join(", "),
+                expected: expected.join(", "),
+            });
+            return;
+        }
+        for (i, own) in deviations.iter().enumerate() {
+            for (key, found) in own.keyed() {
+                self.magnitude(&format!("{path}[{i}].{key}"), found, "a standard deviation");
             }
         }
     }

@@ -96,7 +96,7 @@ pub enum ContactError {
     /// No isotropic material has such moduli.
     #[error(
         "E = {youngs_modulus_pa} Pa and G = {shear_modulus_pa} Pa make Poisson's ratio {found}; an isotropic material has more than −1 and less than 0.5. \
-         Use the two moduli as those of an orthotropic layer or as joint stiffnesses, which need no Poisson's ratio, or a greater hardness"
+         Use the two moduli as those of an orthotropic layer or as joint stiffnesses, which need no Poisson's ratio"
     )]
     PoissonsRatio {
         /// E/(2G) − 1.

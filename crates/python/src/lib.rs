@@ -18,5 +18,5 @@ mod native {
     #[pymodule_export]
     use super::functions::read_functions;
     #[pymodule_export]
-    use super::study_text::{command_of, to_json, to_toml};
+    use super::study_text::{command_of, path_keys, to_json, to_toml};
 }

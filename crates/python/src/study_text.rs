@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bolted_joint::study::StudyText;
+use bolted_joint::study::{PATH_KEYS, StudyText};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -25,6 +25,12 @@ pub(super) fn to_json(toml: &str) -> PyResult<String> {
     let refused = |found: String| PyValueError::new_err(format!("study: {found}"));
     let tables: toml::Table = toml::from_str(toml).map_err(|error| refused(error.to_string()))?;
     serde_json::to_string(&tables).map_err(|error| refused(error.to_string()))
+}
+
+/// Keys of a study whose texts are paths.
+#[pyfunction]
+pub(super) fn path_keys() -> Vec<&'static str> {
+    PATH_KEYS.to_vec()
 }
 
 /// The command that the study in a file is for: `identify`, `predict` or `respond`.

@@ -55,7 +55,10 @@ pub(crate) fn tell(file: &JointFile, shown: &mut Shown) {
     }
     shown.facts_of(
         "beyond linear",
-        terms(file).into_iter().chain(friction(&joint.friction)),
+        terms(file).into_iter().chain(friction(
+            &joint.friction,
+            deviation.map_or(&[], |own| own.friction.as_slice()),
+        )),
     );
     if let Some(table) = &joint.over_preload {
         shown.facts_of("over preload", over_preload(file, table));
@@ -184,8 +187,9 @@ fn term(file: &JointFile, term: Term, values: &[f64]) -> Vec<String> {
         .collect()
 }
 
-fn friction(laws: &[Friction]) -> Vec<String> {
-    let laws = laws.iter().map(|own| {
+/// A line for each law, with the deviations of its numbers where they are known.
+fn friction(laws: &[Friction], deviations: &[Friction]) -> Vec<String> {
+    let laws = laws.iter().enumerate().map(|(place, own)| {
         let values = own
             .law
             .parameters
@@ -196,7 +200,15 @@ fn friction(laws: &[Friction]) -> Vec<String> {
                     one if one == "1" => String::new(),
                     unit => format!(" {unit}"),
                 };
-                format!("{} {}{unit}", parameter.key, short(*value, DIGITS.0))
+                let spread = deviations.get(place).and_then(|own| own.value(parameter));
+                let spread = spread.filter(|own| *own > 0.0);
+                let spread =
+                    spread.map_or_else(String::new, |own| format!(" ± {}", short(own, DIGITS.1)));
+                format!(
+                    "{} {}{spread}{unit}",
+                    parameter.key,
+                    short(*value, DIGITS.0)
+                )
             });
         format!(
             "{} on {}: {}",
@@ -210,6 +222,14 @@ fn friction(laws: &[Friction]) -> Vec<String> {
 
 fn over_preload(file: &JointFile, table: &OverPreload) -> Vec<String> {
     let mut told = vec![format!("nominal {} N·m", short(table.nominal, 4))];
+    let known = file
+        .uncertainty
+        .as_ref()
+        .and_then(|own| own.over_preload.as_ref());
+    let deviations = |place: usize| {
+        let own = known.and_then(|own| own.at.get(place));
+        own.map_or(&[][..], |own| own.standard_deviation.friction.as_slice())
+    };
     for (place, preload) in table.preload.iter().enumerate() {
         let of = |all: &[Vec<Vec<f64>>], parameter| {
             all.get(place)
@@ -222,7 +242,7 @@ fn over_preload(file: &JointFile, table: &OverPreload) -> Vec<String> {
             of(&table.stiffness, STIFFNESS),
             of(&table.damping, DAMPING),
             term(file, Term::CUBIC, cubic),
-            friction(laws),
+            friction(laws, deviations(place)),
         ]
         .concat();
         told.push(format!(

@@ -64,6 +64,7 @@ impl Told<'_> {
                 standard_deviation: StandardDeviation {
                     stiffness: part(&self.deviations[0]),
                     damping: part(&self.deviations[1]),
+                    ..StandardDeviation::default()
                 },
                 basis: self.basis,
                 correlation: Some(Correlation {
@@ -150,6 +151,7 @@ impl SpatialIdentification {
                 noise_alone: StandardDeviation {
                     stiffness: part(of_stiffness),
                     damping: part(of_damping),
+                    ..StandardDeviation::default()
                 },
                 groups: self
                     .groups

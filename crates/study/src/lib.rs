@@ -38,7 +38,7 @@ pub use error::StudyError;
 pub use kind::TextKind;
 pub use lines::LineChoice;
 pub use method::Method;
-pub use named::NamedFile;
+pub use named::{NamedFile, PATH_KEYS};
 pub use noise::overstated_noise;
 pub use origin::{input_file, name_in, provenance};
 pub use paths::Paths;

@@ -9,8 +9,8 @@ use toml::{Table, Value};
 
 use super::{StudyError, StudyText};
 
-/// Keys whose texts are paths.
-const KEYS: [&str; 11] = [
+/// Keys whose texts are paths, in every kind of study and in an assembly file.
+pub const PATH_KEYS: [&str; 11] = [
     "coherence",
     "expected",
     "field",
@@ -53,7 +53,7 @@ impl StudyText {
                         "" => own.clone(),
                         key => format!("{key}.{own}"),
                     };
-                    self.walk(&key, value, KEYS.contains(&own.as_str()), found);
+                    self.walk(&key, value, PATH_KEYS.contains(&own.as_str()), found);
                 }
             }
             Value::Array(values) => {

@@ -58,7 +58,7 @@ impl BeamNumber {
 }
 
 impl StudyText {
-    /// Refuses a number of the beam at `key` that no joint's test has. What is no number at all, or none above zero, is left to the
+    /// Refuses a number of the beam, or of another part, at `key` that no joint's test has. What is no number at all, or none above zero, is left to the
     /// beam's own check.
     ///
     /// # Errors

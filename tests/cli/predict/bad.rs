@@ -28,6 +28,21 @@ fn materials_that_cannot_be_are_refused() {
 
 #[test]
 #[rustfmt::skip]
+fn values_in_another_unit_are_refused_with_their_key() {
+    refused("poissons_ratio = 0.28\n[materials.b]\nyoungs_modulus = 1.5e11", "poissons_ratio = 0.28\n[materials.b]\nyoungs_modulus = 150",
+        &["`materials.b.youngs_modulus`: found 150", "Pa", "GPa or MPa"]);
+    let cone = |half_angle: &str, head_diameter: &str| {
+        let cone = format!("model = \"cone\"\nhalf_angle = {half_angle}\nhead_diameter = {head_diameter}\ndepth = 0.006");
+        bench(&replaced(&replaced(STUDY, "model = \"kavi\"", &cone), "thickness = [0.01, 0.01]\n", ""))
+    };
+    cone("30", "0.013").done(PREDICT);
+    // 30° in radians
+    cone("0.524", "0.013").refused(PREDICT, &["`pressure.half_angle`: found 0.524", "degrees", "radians"]);
+    cone("30", "0.0065").refused(PREDICT, &["`pressure.head_diameter`: found 0.0065", "the 0.008 of bolts[0].diameter", "radius"]);
+}
+
+#[test]
+#[rustfmt::skip]
 fn surfaces_that_cannot_be_are_refused() {
     for dimension in ["1", "2", "2.42"] {
         let expected = ["`surface.fractal_dimension`", dimension, "less than 2"];

@@ -299,6 +299,28 @@ fn with_layer() -> String {
     replaced(&layer, contact, of_layer)
 }
 
+/// No layer of contacts is stiffer than the solid in its place, of slices in series: both are of the same iron here.
+#[test]
+fn a_layer_that_is_stiffer_than_the_parts_is_warned_of() {
+    let found = |roughness: &str| {
+        let bench = bench(&replaced(&with_layer(), "= 1.21e-8", roughness));
+        let outcome = bench.done(&format!("{PREDICT} --json"));
+        let young = number(&outcome.json()["states"][0]["layer"]["youngs_modulus_pa"]);
+        (young, outcome.stderr)
+    };
+    let (stiff, said) = found("= 1.21e-9");
+    assert!(stiff > 1.5e11, "{stiff}");
+    has(
+        &said,
+        &[
+            "the layer is stiffer than the parts",
+            &format!("{stiff:.3e}"),
+            "1.500e11 Pa",
+            "fractal-contact",
+        ],
+    );
+}
+
 #[test]
 fn a_virtual_layer_is_the_joint_of_its_material() {
     // As hard as iron is, the moduli are those of no isotropic material: there is a joint, but no card.
@@ -309,6 +331,11 @@ fn a_virtual_layer_is_the_joint_of_its_material() {
     );
     let outcome = soft.done(PREDICT);
     has(&outcome.stderr, &["no isotropic material"]);
+    assert!(
+        !outcome.stderr.contains("or a greater hardness"),
+        "{}",
+        outcome.stderr
+    );
     soft.done("check j.joint.json");
 
     let bench = bench(&replaced(&with_layer(), "1.96e9", "6e9"));

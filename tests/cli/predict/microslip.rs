@@ -92,6 +92,35 @@ fn an_even_pressure_slips_as_one_contact_of_mindlin() {
     }
 }
 
+/// μ p A scatters as μ does: the joint file, `show` and `compare` have the deviation that is printed.
+#[test]
+fn the_scatter_of_the_slip_is_in_the_joint_file() {
+    let bench = slipping("translation = \"x\"");
+    bench.edit("study.toml", "friction = 0.3", "friction = \"0.3 ± 0.03\"");
+    bench.done(PREDICT);
+    let file = bench.json("j.joint.json");
+    let law = &file["uncertainty"]["standard_deviation"]["friction"][0];
+    assert_eq!(
+        (law["dof"].as_str(), law["law"].as_str()),
+        (Some("y"), Some("iwan"))
+    );
+    close(number(&law["slip_force"]), 0.1 * 0.3 * 2e6 * 0.06, 0.05);
+    assert_eq!(number(&law["ratio"]), 0.0);
+    has(
+        &bench.done("show j.joint.json").stdout,
+        &["slip_force 36000 ± 3"],
+    );
+    let rows = bench
+        .done("compare j.joint.json j.joint.json --json")
+        .json();
+    let rows = rows["rows"].as_array().unwrap();
+    let row = rows
+        .iter()
+        .find(|row| row["name"] == "iwan.slip_force_y")
+        .unwrap();
+    assert_eq!(row["standard_deviations"][0], law["slip_force"]);
+}
+
 /// A rotation about the normal slides each patch by its distance: ∫ μ p r dA slips, ∫ k_t r² dA resists.
 #[test]
 fn a_twist_slips_from_the_outside_in() {
@@ -155,6 +184,24 @@ fn what_cannot_slip_is_refused() {
     let layer = with(&along(&smooth)).replace("fractal-contact", "virtual-material").replace("friction = 0.3\n", "")
         .replace("[interface]", "[layer]\nthickness = [0.001, 0.001]\n[interface]").replace("poissons_ratio = 0.28", "poissons_ratio = 0.28\ndensity = 7800");
     refused(&layer, &["`microslip`", "fractal-contact"]);
+}
+
+/// Millimetres for metres: all that is asked for lies beyond Mindlin's δ = 3h/(2k), from which a contact slips as a whole.
+#[test]
+fn amplitudes_at_which_everything_slips_are_warned_of() {
+    let bench = slipping("translation = \"x\"");
+    let outcome = bench.done(PREDICT);
+    assert!(!outcome.stderr.contains("slips from"), "{}", outcome.stderr);
+    let law = &bench.json("j.joint.json")["joint"]["friction"][0];
+    let end = 1.5 * number(&law["slip_force"]) / number(&law["stiffness"]);
+    let given = "[microslip]\namplitudes = { from = 1e-3, to = 1 }\n";
+    bench.edit("study.toml", "[microslip]\n", given);
+    let outcome = bench.done(PREDICT);
+    let from = format!("all of y slips from {end:.2e} m on");
+    has(
+        &outcome.stderr,
+        &[&from, "microslip.amplitudes", "smaller amplitudes in m"],
+    );
 }
 
 /// Over the torque each law is that of a study of this torque alone: slip forces in proportion, stiffness not.

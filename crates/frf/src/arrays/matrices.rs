@@ -9,9 +9,9 @@ use super::{Array as _, ArrayFile, Element};
 use crate::structure::{NamedMatrices, SpatialModel, StructureError};
 use crate::{Dof, TableProblem};
 
-const MASS: &[&str] = &["M", "mass"];
+pub(super) const MASS: &[&str] = &["M", "mass"];
 const DAMPING: &[&str] = &["C", "damping"];
-const STIFFNESS: &[&str] = &["K", "stiffness"];
+pub(super) const STIFFNESS: &[&str] = &["K", "stiffness"];
 const POINTS: &[&str] = &["points", "point", "coordinates"];
 /// More coordinates than a reduced model has.
 const MOST_COORDINATES: usize = 5000;
@@ -39,9 +39,9 @@ type Found = (Vec<Option<Dof>>, [DMatrix<f64>; 3]);
 
 fn matrices_of<F: ArrayFile>(file: &mut F) -> Result<Found, TableProblem> {
     let mut members = Members(file);
-    let mass = members.required(MASS, "M, the mass matrix")?;
-    let stiffness = members.required(STIFFNESS, "K, the stiffness matrix")?;
-    let named = members.required(
+    let mass = members.required_of_matrices(MASS, "M, the mass matrix")?;
+    let stiffness = members.required_of_matrices(STIFFNESS, "K, the stiffness matrix")?;
+    let named = members.required_of_matrices(
         POINTS,
         "points, a name such as \"2:+Y\" for each coordinate, \"\" for those without",
     )?;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
+use super::matrices::{MASS, STIFFNESS};
 use super::{Array, ArrayFile, Element, Kind};
 use crate::{Dof, Quantity, TableProblem};
 
@@ -68,22 +69,48 @@ impl<F: ArrayFile> Members<'_, F> {
         }
     }
 
+    /// An array of functions that has to be there.
     pub(super) fn required(
         &self,
         names: &[&str],
         wanted: &'static str,
     ) -> Result<String, TableProblem> {
-        self.find(names)?.ok_or_else(|| {
-            let there = match self.0.names() {
-                [] => "of no name at all".to_owned(),
-                names => crate::shown(&names.join(", ")),
-            };
-            let found = format!("the arrays {there}");
-            TableProblem::whole(
-                found,
-                format_args!("{wanted}; save them with {}{}", F::SAVE, F::HINT),
-            )
+        self.find(names)?.ok_or_else(|| match self.has_matrices() {
+            true => TableProblem::whole(
+                format_args!("the arrays {}, matrices of a structure", self.there()),
+                "functions over frequency; what has no functions is named by the key `matrices` of a study or an assembly",
+            ),
+            false => self.missing(wanted, F::SAVE),
         })
+    }
+
+    /// An array of a structure's matrices that has to be there.
+    pub(super) fn required_of_matrices(
+        &self,
+        names: &[&str],
+        wanted: &'static str,
+    ) -> Result<String, TableProblem> {
+        self.find(names)?
+            .ok_or_else(|| self.missing(wanted, F::SAVE_MATRICES))
+    }
+
+    fn has_matrices(&self) -> bool {
+        let has = |names| matches!(self.find(names), Ok(Some(_)));
+        has(MASS) && has(STIFFNESS)
+    }
+
+    fn missing(&self, wanted: &'static str, save: &str) -> TableProblem {
+        TableProblem::whole(
+            format_args!("the arrays {}", self.there()),
+            format_args!("{wanted}; save them with {save}{}", F::HINT),
+        )
+    }
+
+    fn there(&self) -> String {
+        match self.0.names() {
+            [] => "of no name at all".to_owned(),
+            names => crate::shown(&names.join(", ")),
+        }
     }
 
     /// The one text of an array, if it is there.

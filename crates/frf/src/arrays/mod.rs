@@ -34,8 +34,10 @@ pub(crate) enum Element {
 pub(crate) trait ArrayFile {
     /// What is said of the functions that come from it.
     const FORMAT: FileFormat;
-    /// How arrays are saved so that they can be read.
+    /// How functions are saved so that they can be read.
     const SAVE: &str;
+    /// How matrices of a structure are.
+    const SAVE_MATRICES: &str;
     /// What else helps where an array is not found.
     const HINT: &str = "";
     /// How elements of another type are made into those that can be read.

@@ -136,6 +136,7 @@ impl<R: Read + Seek> MatFile<R> {
 impl<R: Read + Seek> ArrayFile for MatFile<R> {
     const FORMAT: FileFormat = FileFormat::Matlab;
     const SAVE: &str = SAVE;
+    const SAVE_MATRICES: &str = "save('file.mat', 'M', 'K', 'C', 'points', '-v7')";
     const HINT: &str =
         "; fields of a structure become arrays by save('file.mat', '-struct', 'name', '-v7')";
     const CONVERT: &str = "convert it before saving: double(…), cellstr(…)";

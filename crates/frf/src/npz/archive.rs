@@ -33,6 +33,7 @@ impl<R: Read + Seek> Archive<R> {
 impl<R: Read + Seek> ArrayFile for Archive<R> {
     const FORMAT: FileFormat = FileFormat::Archive;
     const SAVE: &str = "numpy.savez(file, frequency=…, frf=…, response=…, reference=…)";
+    const SAVE_MATRICES: &str = "numpy.savez(file, M=…, K=…, C=…, points=[…])";
     const CONVERT: &str = "convert it with astype before saving";
     type Array<'file>
         = Array<BufReader<ZipFile<'file, R>>>

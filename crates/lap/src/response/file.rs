@@ -137,6 +137,7 @@ impl LapResponse {
             standard_deviation: StandardDeviation {
                 stiffness: vec![vec![deviation_of_stiffness]],
                 damping: entry(ResponseUnknown::JointDamping),
+                ..StandardDeviation::default()
             },
             basis: format!(
                 "information matrix of the maximum-likelihood estimate with {noise}{raised}{of_decays}{no_cure}; {}",

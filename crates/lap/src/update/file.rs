@@ -153,6 +153,7 @@ impl TorqueUpdate {
             standard_deviation: StandardDeviation {
                 stiffness: vec![vec![self.deviation(LapParameter::JointStiffness)]],
                 damping: vec![vec![self.deviation(LapParameter::JointDamping)]],
+                ..StandardDeviation::default()
             },
             not_identified: self
                 .not_identified()

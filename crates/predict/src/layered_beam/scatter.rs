@@ -261,6 +261,7 @@ impl Scattered {
         StandardDeviation {
             stiffness: of("k_yy"),
             damping: of("c_yy"),
+            ..StandardDeviation::default()
         }
     }
 

@@ -12,7 +12,7 @@ use bolted_joint_study::provenance;
 use super::model::State;
 use super::prediction::{CONTACT_ALONE, Prediction};
 use super::results::{Unknown, at, unknowns};
-use super::slip::Slip;
+use super::slip::{Slip, name};
 
 impl Prediction<'_> {
     /// The joint file: one joint, or one over the torques of the table.
@@ -92,7 +92,7 @@ impl Prediction<'_> {
             .map(|(name, ..)| at(&name, nominal))
             .collect();
         Uncertainty {
-            standard_deviation: deviation(outcome, dofs, nominal),
+            standard_deviation: deviation(outcome, dofs, self.nominal()),
             basis: format!(
                 "Monte Carlo over {}: {} draws{refused}, seed {}; scatter of what was put into the model, not the model's own error",
                 outcome.inputs.join(", "),
@@ -109,9 +109,10 @@ impl Prediction<'_> {
                     .study
                     .torques_n_m
                     .iter()
-                    .map(|&torque| UncertaintyAtPreload {
+                    .zip(&self.states)
+                    .map(|(&torque, state)| UncertaintyAtPreload {
                         preload: torque,
-                        standard_deviation: deviation(outcome, dofs, Some(torque)),
+                        standard_deviation: deviation(outcome, dofs, state),
                         interval_95: Some(intervals(outcome, dofs, Some(torque))),
                         ..UncertaintyAtPreload::default()
                     })
@@ -269,11 +270,27 @@ fn filled<T: Copy>(
     matrices
 }
 
-fn deviation(outcome: &Outcome, dofs: DofSet, torque_n_m: Option<f64>) -> StandardDeviation {
+fn deviation(outcome: &Outcome, dofs: DofSet, state: &State) -> StandardDeviation {
+    let torque_n_m = state.torque_n_m;
     let [stiffness, damping] = filled(outcome, dofs, torque_n_m, 0.0, |found| {
         found.standard_deviation
     });
-    StandardDeviation { stiffness, damping }
+    let of_law = |law: Friction| {
+        let parameters = law.law.parameters.iter();
+        let deviations = parameters.map(|parameter| {
+            let found = estimate(outcome, &name(parameter, law.dof), torque_n_m);
+            found.map_or(0.0, |found| found.standard_deviation)
+        });
+        Friction {
+            parameters: deviations.collect(),
+            ..law
+        }
+    };
+    StandardDeviation {
+        stiffness,
+        damping,
+        friction: friction(state).map(of_law).collect(),
+    }
 }
 
 fn intervals(outcome: &Outcome, dofs: DofSet, torque_n_m: Option<f64>) -> Intervals {

@@ -167,6 +167,7 @@ fn parameters() -> impl Iterator<Item = &'static Parameter> {
     <Iwan as Law<f64>>::DECLARATION.parameters.iter()
 }
 
-fn name(parameter: &Parameter, dof: &Dof) -> String {
+/// Name of a number of the law on a DOF.
+pub(super) fn name(parameter: &Parameter, dof: &Dof) -> String {
     format!("{}_{}", parameter.symbol, dof.name)
 }

@@ -1,6 +1,7 @@
 //! What a reader should know before using a predicted joint.
 
 use super::check::ContactInputs;
+use super::law::Layer;
 use super::prediction::Prediction;
 use crate::patch::LossFactor;
 use crate::pressure::Element;
@@ -49,6 +50,30 @@ impl Prediction<'_> {
         (coefficient > ROUGH).then(|| {
             format!(
                 "contact.friction is {coefficient}: metals have 0.1 to 0.8; check its decimal point, and that it is not in per cent"
+            )
+        })
+    }
+
+    /// A layer that is stiffer than what it takes the place of.
+    fn of_layer(&self, layer: &Layer, at: &str) -> Option<String> {
+        let ContactInputs::Layer { layers, .. } = self.study.contact else {
+            return None;
+        };
+        let values = self.study.inputs.nominal();
+        let [a, b] = &self.study.materials;
+        // the slices in series: h/E = h₁/E₁ + h₂/E₂
+        let compliances = [a, b].into_iter().zip(layers.thickness_m);
+        let compliance: f64 = compliances
+            .map(|(part, thickness_m)| thickness_m / values.of(part.youngs_modulus))
+            .sum();
+        let parts_pa = layer.thickness_m / compliance;
+        let found_pa = layer.moduli.youngs_modulus_pa;
+        (found_pa > parts_pa).then(|| {
+            format!(
+                "the layer is stiffer than the parts{at}: its E = {found_pa:.3e} Pa, that of the slices in its place {parts_pa:.3e} Pa. The \
+                 model adds up its contacts and divides by no area, so that the moduli go with the whole load; a greater hardness makes \
+                 them larger still. Take method = \"fractal-contact\", or a fractal dimension and a roughness that were fitted to measured \
+                 moduli"
             )
         })
     }
@@ -111,6 +136,8 @@ impl Prediction<'_> {
                     "no isotropic material stands for the layer{at}: {reason}"
                 ));
             }
+            let layer = state.layer.as_ref();
+            warnings.extend(layer.and_then(|layer| self.of_layer(layer, &at)));
             if state.layer.is_some() && normal + tangential == 0.0 {
                 warnings.push(format!(
                     "the layer has no damping{at}: its model gives none; state layer.loss_factor"
@@ -118,6 +145,18 @@ impl Prediction<'_> {
             }
             for slip in &state.slips {
                 let fitted = &slip.fitted;
+                let all_slips = slip.patches.slips_through_at();
+                if fitted.amplitudes.from >= all_slips {
+                    warnings.push(format!(
+                        "all of {} slips from {all_slips:.2e} {unit} on{at}, and the law is fitted from {:.2e} to {:.2e} {unit}: how it begins to \
+                         slip is arbitrary, and smaller motion has a wrong heat; state smaller amplitudes in {unit} (microslip.amplitudes), \
+                         or none",
+                        slip.dof.name,
+                        fitted.amplitudes.from,
+                        fitted.amplitudes.to,
+                        unit = slip.dof.kind.displacement_unit()
+                    ));
+                }
                 if fitted.heat_error > FAR_FROM_PATCHES {
                     warnings.push(format!(
                         "the law for the slip of {} misses the heat of its patches by {:.0} % r.m.s.{at}: state the amplitudes that matter \

@@ -4,7 +4,7 @@ import contextlib
 import os
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from ._command import BoltedJointError, path_of, run
 from ._html import table
@@ -48,8 +48,8 @@ def export(
     joint: AJoint | Study | str | os.PathLike[str],
     path: str | os.PathLike[str],
     *,
-    interface: str | None = None,
-    fmi: int = 3,
+    interface: Literal["element", "lap"] | None = None,
+    fmi: Literal[2, 3] = 3,
     step_size_max_s: float | None = None,
     step_error: float | None = None,
     preload_n_m: float | None = None,
@@ -164,13 +164,13 @@ class Checked:
         return table("sound" if self.sound else "not sound", ("", ""), rows)
 
 
-def check(what: AJoint | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
+def check(what: AJoint | Study | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
     """Checks a joint or an FMU, and runs the FMU's library for a moment in a process of its own.
 
     Parameters
     ----------
-    what : Joint, Fmu or path
-        What to check; also what was identified or predicted, of which it is the joint.
+    what : Joint, Study, Fmu or path
+        What to check; also what was identified or predicted, of which it is the joint, and an assembly as a `Study`.
     run_library : bool
         Whether the FMU's library is run.
 
@@ -189,15 +189,18 @@ def check(what: AJoint | Fmu | str | os.PathLike[str], *, run_library: bool = Tr
     NotUsableWarning
         If the joint is not to be relied on.
     """
-    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
-        shown = {}
+    with contextlib.ExitStack() as stack:
+        shown: dict[str, str] = {}
         what = joint_of(what)
         if isinstance(what, Joint):
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-"))
             path = str(Path(folder, "given.joint.json"))
             what.save(path)
             shown[path] = what.name
+        elif isinstance(what, Study):
+            path, shown = stack.enter_context(as_file(what))
         else:
-            path = path_of(what, "what", "a Joint, an Fmu or a path")
+            path = path_of(what, "what", "a Joint, an Fmu or a path, or a Study(...) of an assembly")
         return Checked(run(["check", path, *([] if run_library else ["--no-run"])], shown, may_find=True))
 
 

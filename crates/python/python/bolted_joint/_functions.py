@@ -67,7 +67,7 @@ class Functions:
     ):
         if np.ma.is_masked(frequency_hz):
             raise BoltedJointError("frequency_hz: found masked entries, expected a number for each line")
-        self.frequency_hz: NDArray[np.float64] = np.array(frequency_hz, dtype=np.float64)
+        self.frequency_hz: NDArray[np.float64] = _array("frequency_hz", frequency_hz, np.float64)
         self.responses: tuple[str, ...] = _names("responses", responses)
         self.references: tuple[str, ...] = _names("references", references)
         _known_quantity(quantity)
@@ -77,9 +77,9 @@ class Functions:
                 f"frequency_hz: found an array of shape {self.frequency_hz.shape}, expected one axis"
             )
         shape = (len(self.frequency_hz), len(self.responses), len(self.references))
-        self.values: NDArray[np.complex128] = _shaped("values", _unmasked(values, np.complex128), shape)
+        self.values: NDArray[np.complex128] = _shaped("values", _unmasked("values", values, np.complex128), shape)
         self.coherence: NDArray[np.float64] | None = (
-            None if coherence is None else _shaped("coherence", _unmasked(coherence, np.float64), shape)
+            None if coherence is None else _shaped("coherence", _unmasked("coherence", coherence, np.float64), shape)
         )
         self.averages: float | None = None if averages is None else number("averages", averages, 1.0)
         self.magnitude_deviation: NDArray[np.float64] | None = None
@@ -312,9 +312,23 @@ def _index(names: tuple[str, ...], name: str) -> int:
         raise BoltedJointError(f"found {name!r}, expected one of {', '.join(names)}") from None
 
 
-def _unmasked(values: ArrayLike, kind: Any) -> NDArray[Any]:
+def _array(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:
+    """An array of its own.
+
+    Raises
+    ------
+    BoltedJointError
+        With the argument's name, where values are no numbers or no array.
+    """
+    try:
+        return np.array(values, dtype=kind)
+    except (ValueError, TypeError) as error:
+        raise BoltedJointError(f"{argument}: found what is no array of numbers ({error}), expected one") from error
+
+
+def _unmasked(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:
     """Values in an array of their own, with NaN where they are masked."""
-    found = np.array(values, dtype=kind)
+    found = _array(argument, values, kind)
     if isinstance(values, np.ma.MaskedArray):
         found[np.ma.getmaskarray(values)] = np.nan
     return found

@@ -174,12 +174,13 @@ def identify(
     NotUsableWarning
         If the result is not to be relied on.
     """
+    options = repeated(bootstrap, seed)
     # results tell of the study as it was
     given = settled(study) if isinstance(study, Mapping) else study
     with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output, page = Path(folder, "identified.joint.json"), Path(folder, "report.html")
         arguments = ["identify", path, "-o", str(output)]
-        arguments += repeated(bootstrap, seed)
+        arguments += options
         if not rivals:
             arguments += ["--no-rivals"]
         if report:
@@ -202,7 +203,7 @@ def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
         if seed is not None:
             raise BoltedJointError(f"seed: found {seed!r} without bootstrap, expected both; nothing else is drawn")
         return []
-    options = ["--bootstrap", str(whole("bootstrap", bootstrap, 1))]
+    options = ["--bootstrap", str(whole("bootstrap", bootstrap, 2))]
     return options if seed is None else [*options, "--seed", str(whole("seed", seed, 0))]
 
 

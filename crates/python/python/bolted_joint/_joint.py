@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._command import BoltedJointError, path_of, run
 from ._html import table, with_deviation
-from ._values import checked, number
+from ._values import checked, number, plain, within
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,7 +33,12 @@ class Joint:
     Parameters
     ----------
     data : dict
-        What the joint file holds, format ``bolted-joint/1``.
+        What the joint file holds, format ``bolted-joint/1``. Arrays of NumPy may stand for lists.
+
+    Raises
+    ------
+    BoltedJointError
+        If it is none of these; `check` tells more of one that is.
 
     Attributes
     ----------
@@ -51,6 +56,11 @@ class Joint:
             raise BoltedJointError(
                 f"data: found an object of type {type(data).__name__}, expected what a joint file holds: a dictionary"
             )
+        if missing := _missing(data):
+            raise BoltedJointError(
+                f"data: found a dictionary without {missing}, expected what a joint file holds, such as "
+                '{"format": "bolted-joint/1", "name": "mine", "joint": {"dofs": ["y"], "stiffness": [[1e6]], "damping": [[5]]}}'
+            )
         self.data = data
 
     @classmethod
@@ -63,7 +73,10 @@ class Joint:
             raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
         if not isinstance(data, dict) or "joint" not in data:
             raise BoltedJointError(f"{os.fspath(path)}: found no key joint, expected a joint file (JSON)")
-        return cls(data)
+        try:
+            return cls(data)
+        except BoltedJointError as error:
+            raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the joint file.
@@ -73,7 +86,7 @@ class Joint:
         BoltedJointError
             With the key of a value that the file has no word for, such as NaN.
         """
-        data = checked(self.data, "data")
+        data = checked(plain(self.data), "data")
         Path(path).write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
     @property
@@ -339,12 +352,26 @@ class Joint:
                 entry,
                 (
                     f"{law['dof']}, {law['law']}",
-                    "; ".join(f"{key} {_short(value)}" for key, value in law.items() if key not in ("dof", "law")),
+                    "; ".join(
+                        f"{key} {with_deviation(value, known.get(key, 0.0))}"
+                        for key, value in law.items()
+                        if key not in ("dof", "law")
+                    ),
                     "",
                 ),
             )
-            for entry, law in self._friction()
+            for (entry, law), known in zip(self._friction(), self._friction_deviations(), strict=True)
         ]
+
+    def _friction_deviations(self) -> list[dict[str, Any]]:
+        """Standard deviations of the numbers of each law; nothing of a law where none are known."""
+        found: list[dict[str, Any]] = []
+        places: dict[int | None, int] = {}
+        for entry, _ in self._friction():
+            number = places[entry] = places.get(entry, -1) + 1
+            laws = self._deviations(entry).get("friction") or ()
+            found.append(laws[number] if number < len(laws) else {})
+        return found
 
     def _table(self) -> dict[str, Any]:
         """The table of a joint over the preload; nothing of another joint."""
@@ -417,6 +444,22 @@ AJoint = Joint | HasJoint
 def joint_of(what: Any) -> Any:
     """The joint of what was identified or predicted; anything else as it is."""
     return what if isinstance(what, Joint) or not isinstance(getattr(what, "joint", None), Joint) else what.joint
+
+
+def _missing(data: Mapping[str, Any]) -> str | None:
+    """The place of the first key that no joint is without, and that is not there."""
+    joint = data.get("joint")
+    if not isinstance(joint, Mapping):
+        return within("data", "joint")
+    matrices = () if joint.get("over_preload") is not None else tuple(_MATRICES)
+    wanted = [(("name",), data), *((("joint", key), joint) for key in ("dofs", *matrices))]
+    for keys, table in wanted:
+        if table.get(keys[-1]) is None:
+            place = "data"
+            for key in keys:
+                place = within(place, key)
+            return place
+    return None
 
 
 def _short(value: Any) -> str:

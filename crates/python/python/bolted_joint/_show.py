@@ -1,10 +1,11 @@
 """`show`, `compare` and `convert`: a look at files, joints beside each other, joints for other tools."""
 
+import contextlib
 import os
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,16 +14,17 @@ from ._command import BoltedJointError, in_page, path_of, run
 from ._functions import Functions
 from ._html import table
 from ._joint import AJoint, Joint, joint_of
+from ._study import Study, as_file
 from ._values import number, one_of, whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Tools that joints are converted for.
-_TOOLS = ("nastran", "abaqus", "calculix", "ansys", "matlab", "modelica")
+Tool = Literal["nastran", "abaqus", "calculix", "ansys", "matlab", "modelica"]
 
 #: What `show` tells of.
-Shown = str | os.PathLike[str] | AJoint | Functions
+Shown = str | os.PathLike[str] | AJoint | Functions | Study
 
 
 class Look:
@@ -69,7 +71,7 @@ def show(what: Shown, *, page: bool = False) -> Look:
 
     Parameters
     ----------
-    what : path, Joint or Functions
+    what : path, Joint, Functions or Study
         What to look at.
     page : bool
         Whether the page with its pictures is made too.
@@ -83,7 +85,9 @@ def show(what: Shown, *, page: bool = False) -> Look:
     BoltedJointError
         If it is none of these, or cannot be read.
     """
-    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with contextlib.ExitStack() as stack:
+        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-"))
+        shown = {folder + os.sep: ""}
         what = joint_of(what)
         if isinstance(what, Functions):
             path = str(Path(folder, "functions.npz" if what.measured.all() else "functions.csv"))
@@ -91,11 +95,13 @@ def show(what: Shown, *, page: bool = False) -> Look:
         elif isinstance(what, Joint):
             path = str(Path(folder, "given.joint.json"))
             what.save(path)
+        elif isinstance(what, Study):
+            path, hidden = stack.enter_context(as_file(what))
+            shown |= hidden
         else:
-            path = path_of(what, "what", "a path, a Joint or Functions")
+            path = path_of(what, "what", "a path, a Joint or Functions, or a Study(...)")
         drawing = Path(folder, "page.html")
         arguments = ["show", path, *(["--plot", str(drawing)] if page else [])]
-        shown = {folder + os.sep: ""}
         data = run(arguments, shown)[0]
         return Look(data, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
 
@@ -213,8 +219,8 @@ def compare(
 
 
 def convert(
-    joint: AJoint | str | os.PathLike[str],
-    tool: str,
+    joint: AJoint | Study | str | os.PathLike[str],
+    tool: Tool,
     path: str | os.PathLike[str],
     *,
     nodes: tuple[int, int] | None = None,
@@ -227,8 +233,8 @@ def convert(
 
     Parameters
     ----------
-    joint : Joint or path
-        The joint, or its file.
+    joint : Joint, Study or path
+        The joint, or its file; for Modelica also an assembly, as a `Study` or its file.
     tool : {"nastran", "abaqus", "calculix", "ansys", "matlab", "modelica"}
         The tool.
     path : path
@@ -254,10 +260,15 @@ def convert(
     BoltedJointError
         If the tool has no word for the joint.
     """
-    with tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
+    with contextlib.ExitStack() as stack:
         joint = joint_of(joint)
-        given = _joint_file(joint, Path(folder, "given.joint.json"), "joint")
-        arguments = ["convert", given, "--to", one_of("tool", tool, _TOOLS), "-o", path_of(path)]
+        if isinstance(joint, Study):
+            given, shown = stack.enter_context(as_file(joint))
+        else:
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="bolted-joint-"))
+            given = _joint_file(joint, Path(folder, "given.joint.json"), "joint")
+            shown = {given: joint.name if isinstance(joint, Joint) else given}
+        arguments = ["convert", given, "--to", one_of("tool", tool, get_args(Tool)), "-o", path_of(path)]
         if nodes is not None:
             arguments += ["--nodes", _pair("nodes", nodes)]
         if rotation_nodes is not None:
@@ -268,7 +279,7 @@ def convert(
             arguments += ["--preload", repr(number("preload_n_m", preload_n_m))]
         if at_rest:
             arguments += ["--at-rest"]
-        run(arguments, {given: joint.name if isinstance(joint, Joint) else given})
+        run(arguments, shown)
     return Path(path)
 
 

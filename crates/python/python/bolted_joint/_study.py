@@ -18,8 +18,8 @@ from ._joint import Joint
 from ._read import unit_factors
 from ._values import single, within
 
-#: Keys whose texts are never paths.
-_TEXTS = ("name", "notes", "method", "model")
+#: Keys whose texts are paths.
+_PATHS = frozenset(_native.path_keys())
 
 
 class Study(dict[str, Any]):
@@ -124,6 +124,8 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
     if not isinstance(study, Mapping):
         yield path_of(study, "study", _A_STUDY), {}
         return
+    if not study:
+        raise BoltedJointError("study: found an empty dictionary, expected the tables of a study, such as method and name")
     folder = Study(study).folder
     with tempfile.TemporaryDirectory(prefix="bolted-joint-") as temporary:
         # a study of a joint in space has no such key
@@ -185,8 +187,8 @@ class _Tables:
         return single(value, place)
 
     def text(self, value: str, key: str) -> str:
-        """A text; the whole path if it names a file."""
-        if key.rsplit(".")[-1] in _TEXTS or not value:
+        """A text; the whole path if its key is that of a file, and it names one."""
+        if key.rsplit(".")[-1] not in _PATHS or not value:
             return value
         path = self.folder / value
         try:

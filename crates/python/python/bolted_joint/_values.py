@@ -6,6 +6,8 @@ import operator
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from ._command import BoltedJointError
 
 
@@ -32,6 +34,17 @@ def checked(value: Any, place: str) -> Any:
             checked(inner, within(place, number))
     elif value is not None:
         single(value, place)
+    return value
+
+
+def plain(value: Any) -> Any:
+    """A value with lists and numbers in place of NumPy's."""
+    if isinstance(value, Mapping):
+        return {name: plain(inner) for name, inner in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, Sequence) and not isinstance(value, str | bytes | bytearray):
+        return [plain(inner) for inner in value]
     return value
 
 

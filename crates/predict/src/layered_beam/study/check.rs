@@ -1,6 +1,6 @@
 //! From tables to a study: everything that can be wrong is said with its key.
 
-use bolted_joint_study::{StudyError, StudyText};
+use bolted_joint_study::{BeamNumber, StudyError, StudyText};
 
 use super::super::super::pressure::Tightening;
 use super::super::super::uncertain::{MonteCarlo, Uncertain};
@@ -102,6 +102,13 @@ fn mode_number(study: &StudyText, key: &str, found: usize) -> Result<usize, Stud
 }
 
 fn layered(study: &StudyText, table: &BeamTable) -> Result<LayeredBeam, StudyError> {
+    for (place, layer) in table.layer.iter().enumerate() {
+        study.plausible_in_beam(
+            format_args!("beam.layer[{place}]"),
+            BeamNumber::YoungsModulus,
+            layer.youngs_modulus,
+        )?;
+    }
     let layers = table.layer.iter().map(|layer| Layer {
         thickness_m: layer.thickness,
         youngs_modulus_pa: layer.youngs_modulus,

@@ -5,10 +5,18 @@ use crate::patch::Motions;
 use crate::pressure::{Cone, PressureField, Rectangle, ThicknessRatio, Zone};
 use crate::study::clamping::Clamping;
 use crate::study::geometry::Geometry;
-use crate::study::tables::{InterfaceTable, JointTable, PressureModel, PressureTable, StudyFile};
+use crate::study::tables::{
+    BoltTable, InterfaceTable, JointTable, PressureModel, PressureTable, StudyFile,
+};
 use bolted_joint_joint::DofSet;
 use bolted_joint_study::{StudyError, input_file};
 use std::path::Path;
+
+/// What the cone's half angle is.
+const HALF_ANGLE: &str = "the cone's half angle in degrees, about 30 for steel";
+
+/// Half angles below this one, in degrees, are no cones under a head; in radians they are.
+const LEAST_HALF_ANGLE_DEG: f64 = 1.0;
 
 /// What a study can say of the pressure.
 const MODELS: &str = "\"uniform\", \"kavi\" or \"cone\"";
@@ -53,7 +61,7 @@ impl Checker<'_> {
         let outline = self.model("interface", Rectangle::new(x_m, y_m))?;
         let cells = table.elements.unwrap_or(ELEMENTS);
         let clearance_m = pressure.clearance.unwrap_or(0.0);
-        let geometry = match self.zone(pressure)? {
+        let geometry = match self.zone(pressure, &file.bolts)? {
             Some(zone) => Geometry::zones(outline, cells, &bolts, clearance_m, zone),
             None => Geometry::even(outline, cells, &bolts, clearance_m),
         };
@@ -100,7 +108,7 @@ impl Checker<'_> {
     }
 
     /// `None` for an even pressure.
-    fn zone(&self, table: &PressureTable) -> Checked<Option<Zone>> {
+    fn zone(&self, table: &PressureTable, bolts: &[BoltTable]) -> Checked<Option<Zone>> {
         match table.model {
             None => self.study.refuse("pressure.model", "nothing", MODELS),
             Some(PressureModel::Uniform) => Ok(None),
@@ -120,18 +128,31 @@ impl Checker<'_> {
                     self.study
                         .needed(format_args!("pressure.{key}"), value, what)
                 };
+                let half_angle_deg = given("half_angle", table.half_angle, HALF_ANGLE)?;
+                // 0 is a cylinder
+                let in_radians = half_angle_deg > 0.0 && half_angle_deg < LEAST_HALF_ANGLE_DEG;
+                self.study.ensure(
+                    !in_radians,
+                    "pressure.half_angle",
+                    half_angle_deg,
+                    format_args!("{HALF_ANGLE} (is it in radians?)"),
+                )?;
+                let what = "the diameter in m of the head or washer";
+                let head_diameter_m = given("head_diameter", table.head_diameter, what)?;
+                for (place, bolt) in bolts.iter().enumerate() {
+                    self.study.ensure(
+                        head_diameter_m > bolt.diameter,
+                        "pressure.head_diameter",
+                        head_diameter_m,
+                        format_args!(
+                            "{what}, above the {} of bolts[{place}].diameter (is it a radius, or that of another bolt?)",
+                            bolt.diameter
+                        ),
+                    )?;
+                }
                 Ok(Some(Zone::Cone(Cone {
-                    half_angle_rad: given(
-                        "half_angle",
-                        table.half_angle,
-                        "the cone's half angle in degrees, about 30 for steel",
-                    )?
-                    .to_radians(),
-                    head_diameter_m: given(
-                        "head_diameter",
-                        table.head_diameter,
-                        "the diameter in m of the head or washer",
-                    )?,
+                    half_angle_rad: half_angle_deg.to_radians(),
+                    head_diameter_m,
                     depth_m: given(
                         "depth",
                         table.depth,

@@ -16,7 +16,7 @@ use crate::surface::ProfileFit;
 use crate::uncertain::{Distribution, InputPlace, Inputs, MonteCarlo, Spread, Uncertain};
 use crate::virtual_material::Layers;
 use bolted_joint_joint::InputFile;
-use bolted_joint_study::{Method, StudyError, StudyText, UncertaintyTable, schema};
+use bolted_joint_study::{BeamNumber, Method, StudyError, StudyText, UncertaintyTable, schema};
 use interface::pressure_in_words;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -261,6 +261,11 @@ impl Checker<'_> {
             &key("youngs_modulus"),
             format!("Young's modulus of {side}"),
             table.youngs_modulus,
+        )?;
+        self.study.plausible_in_beam(
+            format_args!("materials.{side}"),
+            BeamNumber::YoungsModulus,
+            table.youngs_modulus.value,
         )?;
         let (low, high) = (-1.0, 0.5);
         let ratio = table.poissons_ratio;

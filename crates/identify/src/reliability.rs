@@ -131,8 +131,16 @@ fn is_known_noise(assessment: &Assessment) -> bool {
     assessment.is_certain() && (assessment.noise_is_stated || is_of_coherence())
 }
 
-/// A warning of a part of the values that is stated as noise and far above the residual; of a floor nobody knows its size.
-pub(super) fn of_stated_noise(noise: &Noise, assessment: &Assessment) -> Option<String> {
+/// A warning of a part of the values that is stated as noise and far above the residual; of a floor nobody knows its size. Where the
+/// model has nothing to do with the measurement, what is left beside the noise of all that takes part says nothing of its size.
+pub(super) fn of_stated_noise(
+    noise: &Noise,
+    assessment: &Assessment,
+    median_difference: Option<f64>,
+) -> Option<String> {
+    if median_difference.is_some_and(|off| off > MISFIT) {
+        return None;
+    }
     let StatedLevel { relative, floor } = noise.assembly;
     let relative = relative.filter(|_| !assessment.noise_is_known)?;
     let has_floor = [floor.yy, floor.ytheta, floor.thetatheta]

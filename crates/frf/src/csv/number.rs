@@ -25,7 +25,7 @@ pub(super) fn parse_complex(decimal: Decimal, text: &str) -> Option<(Complex64, 
     let imaginary: String = imaginary.split_whitespace().collect();
     // `1.2 + -3.4i`: a plus for every number, and then the number's own sign
     let real = match real.trim_end().strip_suffix('+') {
-        Some(before) if real.ends_with(char::is_whitespace) => before,
+        Some(before) if real.ends_with(char::is_whitespace) && !before.is_empty() => before,
         _ => real,
     };
     let (real, used) = match real.trim() {

@@ -34,17 +34,6 @@ def test_a_rotation_by_differences_is_told_without_a_budget_too(program, tmp_pat
     assert "central difference" not in run(program, study, "--no-rivals").stderr
 
 
-def test_noise_is_not_called_too_large_beside_a_model_of_another_structure(program, tmp_path):
-    sets = data()
-    sets["C"] = 1e3 * sets["C"]
-    study = rig.write(tmp_path, sets, 0.01, budget='"none"')
-    edit(study, "floor = 0\n", "")
-    done = run(program, study)
-    assert done.returncode == 3
-    assert "% off the model" in done.stderr
-    assert "times as large as what the fit leaves" not in done.stderr
-
-
 def test_an_assembly_that_is_a_part_is_refused(program, tmp_path):
     sets = data()
     study = rig.write(tmp_path, sets, 0.01)
@@ -77,12 +66,3 @@ def test_a_response_has_the_lines_of_what_was_measured(program, tmp_path):
     done = respond()
     assert done.returncode == 1
     assert "[frequency]: found nothing" in done.stderr and "such as from = 10 and to = 500" in done.stderr
-
-
-def test_a_peak_between_the_lines_is_no_drop_out(program, tmp_path):
-    """Every third line of B, whose lightly damped modes then have less than one line within their half-power bandwidth."""
-    frequency = rig.FREQUENCY[::3]
-    for seed in range(4):
-        sets = rig.test_data(Mistakes(), 0.01, seed, frequency)
-        study = rig.write(tmp_path, sets, 0.01, frequency, budget='"none"')
-        assert "far off what their neighbours" not in run(program, study, "--no-rivals").stderr

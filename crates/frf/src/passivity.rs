@@ -20,11 +20,11 @@ const SMALLEST: f64 = 0.25;
 /// Each line counts the same at which that part is more than noise.
 #[must_use]
 pub fn feeds_energy(drive_point: &[Complex64]) -> bool {
-    let parts = beyond_noise(drive_point);
-    let parts: Vec<f64> = drive_point
-        .iter()
-        .zip(&parts)
-        .filter_map(|(h, is_beyond)| is_beyond.then(|| h.im / h.norm()))
+    let beyond = beyond_noise(drive_point);
+    let lines = drive_point.iter().zip(beyond);
+    let parts: Vec<f64> = lines
+        .filter(|(_, is_beyond)| *is_beyond)
+        .map(|(h, _)| h.im / h.norm())
         .collect();
     let sizes: f64 = parts.iter().map(|part| part.abs()).sum();
     parts.len() >= FEWEST && parts.iter().sum::<f64>() > ACTIVE * sizes

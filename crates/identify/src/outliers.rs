@@ -100,7 +100,7 @@ impl Candidates {
                             resonances.iter().find(|(_, lines)| lines.contains(&line))
                         {
                             let hz = lines.frequency_hz[*peak];
-                            unresolved.insert(format!("{set} at {hz:.6} Hz"));
+                            unresolved.insert(format!("{set} at {hz:.1} Hz"));
                             continue;
                         }
                         let outlier = Outlier {

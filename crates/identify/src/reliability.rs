@@ -225,3 +225,31 @@ fn of_line<'a>(
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::StatedFloor;
+
+    #[test]
+    fn stated_noise_is_too_large_beside_a_fit_and_not_beside_none() {
+        let noise = Noise::of_the_assembly(StatedLevel {
+            relative: Some(0.01),
+            floor: StatedFloor::default(),
+        });
+        let assessment = Assessment {
+            // a quarter of the stated deviation
+            reduced_chi_squared: Some(0.0625),
+            noise_is_stated: false,
+            noise_is_known: false,
+            chi_squared_excess: 0.0,
+            line_correlation: 0.0,
+            line_correlation_excess: 0.0,
+            has_power: true,
+            is_exact: false,
+        };
+        let of = |off: f64| of_stated_noise(&noise, &assessment, Some(off));
+        assert!(of(0.004).is_some_and(|told| told.contains("is 4 times as large")));
+        assert_eq!(of(1.2), None);
+    }
+}

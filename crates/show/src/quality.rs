@@ -49,7 +49,8 @@ pub fn drive_points(set: &FrfSet) -> Vec<DrivePoint> {
             let beyond = beyond_noise(values);
             let parts = values.iter().zip(beyond);
             let parts: Vec<f64> = parts
-                .filter_map(|(value, is_beyond)| is_beyond.then_some(sign * value.im))
+                .filter(|(_, is_beyond)| *is_beyond)
+                .map(|(value, _)| sign * value.im)
                 .collect();
             let all: f64 = parts.iter().map(|part| part.abs()).sum();
             let active = parts.iter().map(|part| part.max(0.0));

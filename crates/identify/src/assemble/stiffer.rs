@@ -80,8 +80,9 @@ fn of_rigid(
         // half of a complex variance is that of the real part
         let of_rigid = (0.5 * variance).sqrt();
         let beyond_resonance = rigid.yields.re <= -CERTAIN * of_rigid;
-        // also where it was not measured
-        if !(measured > 0.0) || beyond_resonance {
+        // never where it was not measured
+        let is_below = measured > 0.0 && !beyond_resonance;
+        if !is_below {
             break;
         }
         count += 1;

@@ -78,10 +78,8 @@ fn deviations_in_other_units_than_si_are_asked_about() {
         ("joint_mass = -1", "`budget.joint_mass`: found -1", "in kg that is finite and not negative"),
     ];
     for (key, found, expected) in cases {
-        bench.write(
-            "study.toml",
-            BEAMS.replace("[joint]", &format!("[budget]\n{key}\n[joint]")),
-        );
+        let budget = format!("budget = {{ {key} }}");
+        bench.write("study.toml", replaced(BEAMS, "budget = \"none\"", &budget));
         bench.refused(IDENTIFY, &["study.toml: ", found, expected]);
     }
 }

@@ -62,7 +62,7 @@ pub(super) struct RespondArguments {
         required_unless_present = "plan"
     )]
     output: Option<PathBuf>,
-    /// Distance between the lines of an assembly, Hz [default: 0.25]
+    /// Distance between the lines of an assembly, Hz [default: 0.25; without `[frequency]` that of what was measured]
     #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Also draw the response of laps, or of an assembly in space
@@ -195,7 +195,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     };
     let study = Study::of(&text)?;
     keep_what_was_measured(output, &study)?;
-    let frequency_hz = lines(&study, arguments.step.unwrap_or(STEP_HZ))?;
+    let frequency_hz = lines(&study, arguments.step)?;
     let joints = joints(joint, &study)?;
     let progress = Progress::new("responding", 0);
     let exact = predict_assembly(&study, &joints, &frequency_hz)?;
@@ -369,15 +369,32 @@ fn pollution(noise: &NoiseArguments) -> Result<Pollution, CliError> {
     }
 }
 
-/// Lines from the study's first to its last frequency.
-fn lines(study: &Study, step_hz: f64) -> Result<Vec<f64>, CliError> {
-    let [from_hz, to_hz] = study.frequency_range_hz;
+/// Lines from the study's first to its last frequency; where it does not say these, those of what was measured before.
+fn lines(study: &Study, step_hz: Option<f64>) -> Result<Vec<f64>, CliError> {
+    let [mut from_hz, mut to_hz] = study.frequency_range_hz;
+    if from_hz == f64::MIN_POSITIVE || to_hz == f64::MAX {
+        let measured = study.measured_frequencies_hz().unwrap_or_default();
+        let [first, .., last] = measured[..] else {
+            let found = match (from_hz == f64::MIN_POSITIVE, to_hz == f64::MAX) {
+                (true, true) => "nothing",
+                (true, false) => "no `from`",
+                (false, _) => "no `to`",
+            };
+            let expected = "the lines of the test, such as from = 10 and to = 500 (Hz) in the study: it names no measured file that has them";
+            return Err(CliError::option("[frequency]", found, expected));
+        };
+        if step_hz.is_none() {
+            return Ok(measured);
+        }
+        [from_hz, to_hz] = [first, last];
+    }
+    let step_hz = step_hz.unwrap_or(STEP_HZ);
     let count = ((to_hz - from_hz) / step_hz + 1e-9).floor() + 1.0;
     if !(step_hz.is_finite() && step_hz > 0.0) {
         let expected = "a positive distance between lines in Hz";
         return Err(CliError::option("--step", step_hz, expected));
     }
-    if from_hz == f64::MIN_POSITIVE || to_hz == f64::MAX || !(2.0..MOST_LINES).contains(&count) {
+    if !(2.0..MOST_LINES).contains(&count) {
         let found = format!("{from_hz} to {to_hz} Hz in steps of {step_hz} Hz");
         let expected =
             "`from` and `to` in the study, two lines apart or more and at most ten million";

@@ -174,6 +174,34 @@ fn what_has_the_points_of_all_is_the_assembly_of_a_chain() {
 }
 
 #[test]
+fn a_measurement_may_have_a_file_for_each_reference() {
+    let bench = Bench::new();
+    let three = "11:+Y 12:+Y 13:+Y";
+    bench.write("a.csv", table("1:+Y", "1:+Y"));
+    bench.write("b.csv", table(&format!("10:+Y {three}"), "10:+Y"));
+    for (number, reference) in three.split(' ').enumerate() {
+        bench.write(&format!("c_ref{number}.csv"), table(three, reference));
+    }
+    let outcome = bench.done("init");
+    has(
+        &outcome.stdout,
+        &["part b b.csv, the assembly c_ref0.csv with c_ref1.csv with c_ref2.csv"],
+    );
+    assert!(!outcome.stdout.contains("not used"), "{}", outcome.stdout);
+    has(
+        &bench.text("study.toml"),
+        &[
+            "frf = [\"c_ref0.csv\", \"c_ref1.csv\", \"c_ref2.csv\"]",
+            "points = [\"11:+Y\", \"12:+Y\", \"13:+Y\"]",
+        ],
+    );
+    has(
+        &bench.done("show study.toml").stdout,
+        &["study of method \"frf-decoupling\""],
+    );
+}
+
+#[test]
 fn the_rotation_of_a_first_study_is_not_about_its_translation() {
     let bench = Bench::new();
     for name in ["a.csv", "b.csv", "joined.csv"] {

@@ -46,6 +46,8 @@ def test_arrays_give_the_same_bits_as_files(demo):
     study["assembly"]["frf"] = bolted_joint.read(demo / "assembly.uff")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        # the published test has its rotation by differences, whatever gives its functions
+        warnings.filterwarnings("ignore", "the rotation of A is a central difference")
         of_arrays = bolted_joint.identify(study)
     assert without_origin(of_arrays.joint.data) == without_origin(of_file.joint.data)
     inputs = of_arrays.joint.data["provenance"]["inputs"]

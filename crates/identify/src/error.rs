@@ -36,6 +36,26 @@ pub enum IdentifyError {
         /// A line, Hz.
         frequency_hz: f64,
     },
+    /// The functions of the assembly are those of one of its substructures.
+    #[error(
+        "{}: found the functions of {substructure} at {point}{}, expected those of both structures bolted together: name the file that was \
+         measured on the assembly",
+        path.display(),
+        match file {
+            Some(file) => format!(", as {} is a file of {substructure}, too", file.display()),
+            None => ", line by line".to_owned(),
+        }
+    )]
+    AssemblyIsSubstructure {
+        /// File of the assembly's functions.
+        path: PathBuf,
+        /// The file that is named for both.
+        file: Option<PathBuf>,
+        /// A or B.
+        substructure: char,
+        /// A point that both have.
+        point: Dof,
+    },
     /// The study cannot be used, or a file that it names cannot be read.
     #[error(transparent)]
     Study(#[from] StudyError),

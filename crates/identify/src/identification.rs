@@ -154,6 +154,7 @@ pub fn identify_and_draw(
         progress: Some(&|| watch.drawn()),
     };
     let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
+    warnings.extend(candidates.warning());
     let (all, outliers, estimate) = if candidates.is_empty() {
         let estimate = estimated(study, &all, &options)?;
         (all, Outliers::default(), estimate)
@@ -264,6 +265,7 @@ pub fn identify_and_draw(
     warnings.extend(reliability::of_stated_noise(
         &study.noise,
         &estimate.assessment,
+        median_difference,
     ));
     let large = reliability::warning(&estimate, study.model, relative_rms, unexplained);
     warnings.extend(large);

@@ -72,6 +72,7 @@ mod trials;
 mod two_step;
 mod uncertainty;
 mod unknown;
+mod unresolved;
 mod used;
 mod watch;
 mod weights;

@@ -12,6 +12,7 @@ use super::lines::Lines;
 use super::model::JointMatrices;
 use super::receptances::Receptances;
 use super::roughness::Roughness;
+use super::unresolved;
 
 /// Of so large a part of the lines nothing is left out: then it is not single values that are bad.
 const MOST: f64 = 0.2;
@@ -67,12 +68,17 @@ struct Candidate {
 }
 
 /// Values that stand out from their neighbours.
-pub(super) struct Candidates(Vec<Candidate>);
+pub(super) struct Candidates {
+    found: Vec<Candidate>,
+    /// Resonances too sharp for the lines, at which good values stand out, too.
+    unresolved: BTreeSet<String>,
+}
 
 impl Candidates {
     /// Those of all assemblies and their substructures. `labels` are those of A's and B's measured functions.
     pub(super) fn of(all: &[Lines], labels: [&[Dof]; 2]) -> Self {
         let mut found: Vec<Candidate> = Vec::new();
+        let mut unresolved = BTreeSet::new();
         for (number, lines) in all.iter().enumerate() {
             for (set, functions) in functions(lines, labels, (all.len() > 1).then_some(number)) {
                 // Where most functions stand out a resonance lies between the lines.
@@ -82,9 +88,21 @@ impl Candidates {
                     functions.filter(|of| suspicious(&of.rough)).count()
                 };
                 let is_single = |line: usize| functions.len() < 3 || 2 * at(line) < functions.len();
+                let peaks: Vec<&[usize]> = functions.iter().map(|of| of.peaks.as_slice()).collect();
+                let resonances = match functions.len() < 3 {
+                    true => Vec::new(),
+                    false => unresolved::resonances(&peaks),
+                };
                 for of in &functions {
                     let lines_of = of.rough.outliers.iter();
                     for &(line, deviation) in lines_of.filter(|(line, _)| is_single(*line)) {
+                        if let Some((peak, _)) =
+                            resonances.iter().find(|(_, lines)| lines.contains(&line))
+                        {
+                            let hz = lines.frequency_hz[*peak];
+                            unresolved.insert(format!("{set} at {hz:.1} Hz"));
+                            continue;
+                        }
                         let outlier = Outlier {
                             set: set.clone(),
                             response: of.response,
@@ -102,11 +120,24 @@ impl Candidates {
                 }
             }
         }
-        Self(found)
+        Self { found, unresolved }
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.found.is_empty()
+    }
+
+    /// What the user should know of the distance between lines.
+    pub(super) fn warning(&self) -> Option<String> {
+        let all: Vec<&str> = self.unresolved.iter().map(String::as_str).collect();
+        (!all.is_empty()).then(|| {
+            format!(
+                "fewer than {} lines lie within the half-power bandwidth of a resonance of {}: a bad value there is not told from a good \
+                 one, and damping is hardly measured; zoom in, or measure longer",
+                unresolved::FEWEST_LINES,
+                all.join(", of ")
+            )
+        })
     }
 
     /// Those that a joint which was found without their lines does not explain, and whether these are fewer: beside a resonance
@@ -116,7 +147,7 @@ impl Candidates {
         all: &[Lines],
         joint: impl Fn(usize) -> &'j JointMatrices,
     ) -> (Self, bool) {
-        let before = self.0.len();
+        let before = self.found.len();
         let is_explained = |of: &Candidate| {
             let lines = all[of.assembly].at_lines(&[of.line]);
             let Ok(computed) = lines.regenerated(joint(of.assembly)) else {
@@ -134,17 +165,18 @@ impl Candidates {
                 None => !lines.measured.iter().any(differs),
             }
         };
-        let candidates = self.0.into_iter();
-        let left: Vec<Candidate> = candidates.filter(|of| !is_explained(of)).collect();
-        let is_fewer = left.len() < before;
-        (Self(left), is_fewer)
+        let candidates = self.found.into_iter();
+        let found: Vec<Candidate> = candidates.filter(|of| !is_explained(of)).collect();
+        let is_fewer = found.len() < before;
+        let unresolved = self.unresolved;
+        (Self { found, unresolved }, is_fewer)
     }
 
     /// What is left of the lines, and what was left out.
     pub(super) fn leave_out(&self, all: &[Lines]) -> (Vec<Lines>, Outliers) {
         let mut found = Outliers::default();
         let mut bad: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); all.len()];
-        for of in &self.0 {
+        for of in &self.found {
             bad[of.assembly].insert(of.line);
             if !found.values.contains(&of.outlier) {
                 found.values.push(of.outlier.clone());
@@ -200,6 +232,8 @@ struct Function {
     /// Row and column in the assembly's matrix.
     place: Option<(usize, usize)>,
     rough: Roughness,
+    /// Lines of peaks that are too sharp for the lines.
+    peaks: Vec<usize>,
 }
 
 /// The measured functions of an assembly, with its number if there are several, and of its substructures, by set.
@@ -222,6 +256,10 @@ fn functions(
         reference: lines.points[q],
         place: Some((p, q)),
         rough,
+        peaks: {
+            let values = lines.assembly.iter().map(|matrix| matrix[(p, q)]);
+            unresolved::peaks(&values.collect::<Vec<_>>())
+        },
     });
     let mut sets = vec![(assembly, own.collect::<Vec<_>>())];
     for (name, receptances, labels) in [("A", &lines.a, labels[0]), ("B", &lines.b, labels[1])] {
@@ -235,6 +273,7 @@ fn functions(
                 reference: *labels.get(q)?,
                 place: None,
                 rough,
+                peaks: unresolved::peaks(measured.function(p, q)),
             })
         });
         sets.push((name.to_owned(), own.collect()));
@@ -291,4 +330,93 @@ fn known(kept: &[(Receptances, Receptances)], receptances: &Receptances) -> Opti
             .is_some_and(|before| Arc::ptr_eq(before, measured))
     });
     found.map(|(_, kept)| kept.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::OnceLock;
+
+    use bolted_joint_frf::structure::ComplexMatrix;
+    use nalgebra::DMatrix;
+    use num_complex::Complex64;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    use super::*;
+    use crate::receptances::MeasuredSubstructure;
+
+    /// Shapes of B's modes at four places, and the frequency of the first, Hz. The loss factor is 0.002.
+    const SHAPES: [[f64; 4]; 2] = [[1.0, 0.4, -0.5, -0.9], [1.0, -0.3, -0.2, 2.0]];
+    const FIRST_HZ: f64 = 870.0;
+
+    /// B, free, measured from 40 to 3000 Hz every 10 Hz with noise of 1 %, and one bad value where it is asked for.
+    fn lines(second_hz: f64, seed: u64, bad: Option<usize>) -> Lines {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut generator) };
+        let frequency_hz: Vec<f64> = (4..=300).map(|line| 10.0 * f64::from(line)).collect();
+        let columns = (0..4).flat_map(|column| (0..=column).map(move |row| (row, column)));
+        let places: Vec<(usize, usize)> = columns.collect();
+        let mut function = |&(p, q): &(usize, usize)| -> Vec<Complex64> {
+            let of_mode = |hz: f64| {
+                let modes = SHAPES.iter().zip([FIRST_HZ, second_hz]);
+                let modes = modes.map(|(shape, natural)| {
+                    let square = natural * natural;
+                    shape[p] * shape[q] * Complex64::new(square - hz * hz, 0.002 * square).inv()
+                });
+                modes.sum::<Complex64>() - (1.0 + 0.2 * (p + q) as f64) / (hz * hz)
+            };
+            let part = 0.01 * std::f64::consts::FRAC_1_SQRT_2;
+            let values = frequency_hz
+                .iter()
+                .map(|&hz| of_mode(hz) * Complex64::new(1.0 + part * normal(), part * normal()));
+            values.collect()
+        };
+        let mut functions: Vec<Vec<Complex64>> = places.iter().map(&mut function).collect();
+        if let Some(line) = bad {
+            functions[4][line] *= 3.0;
+        }
+        let measured = MeasuredSubstructure::new(DMatrix::identity(4, 4), functions, places, None);
+        let measured = measured.with_axis(&frequency_hz, vec![false; 4]);
+        let still = |size| vec![ComplexMatrix::zeros(size, size); frequency_hz.len()];
+        Lines {
+            a: Receptances::Exact(still(1)),
+            b: Receptances::Measured(Arc::new(measured)),
+            apart: None,
+            assembly: still(3),
+            points: ["2:+Y", "3:+Y", "4:+Y"]
+                .map(|dof| dof.parse().unwrap())
+                .to_vec(),
+            measured: Vec::new(),
+            relative_variance: None,
+            repeats: None,
+            floors: OnceLock::new(),
+            frequency_hz,
+        }
+    }
+
+    fn found(second_hz: f64, seed: u64, bad: Option<usize>) -> Candidates {
+        let labels: Vec<Dof> = (1..5)
+            .map(|node| format!("{node}:+Y").parse().unwrap())
+            .collect();
+        Candidates::of(&[lines(second_hz, seed, bad)], [&[], &labels])
+    }
+
+    #[test]
+    fn a_peak_that_the_lines_cannot_follow_is_no_outlier_and_a_bad_value_is_one() {
+        let mut told = Vec::new();
+        for second_hz in [2962.0, 2965.0, 2972.0, 2974.0, 2975.0, 2977.0] {
+            for seed in 0..12 {
+                let own = found(second_hz, seed, None);
+                assert!(own.is_empty(), "{second_hz} {seed}");
+                told.extend(own.warning());
+            }
+        }
+        let is_there = |told: &String| told.contains("a resonance of B at 29");
+        assert!(told.iter().all(is_there), "{told:?}");
+        // a bad value elsewhere stays one
+        let bad = found(2975.0, 0, Some(120));
+        assert_eq!(bad.found.len(), 1);
+        assert_eq!(bad.found[0].line, 120);
+    }
 }

@@ -131,8 +131,16 @@ fn is_known_noise(assessment: &Assessment) -> bool {
     assessment.is_certain() && (assessment.noise_is_stated || is_of_coherence())
 }
 
-/// A warning of a part of the values that is stated as noise and far above the residual; of a floor nobody knows its size.
-pub(super) fn of_stated_noise(noise: &Noise, assessment: &Assessment) -> Option<String> {
+/// A warning of a part of the values that is stated as noise and far above the residual; of a floor nobody knows its size. Where the
+/// model has nothing to do with the measurement, what is left beside the noise of all that takes part says nothing of its size.
+pub(super) fn of_stated_noise(
+    noise: &Noise,
+    assessment: &Assessment,
+    median_difference: Option<f64>,
+) -> Option<String> {
+    if median_difference.is_some_and(|off| off > MISFIT) {
+        return None;
+    }
     let StatedLevel { relative, floor } = noise.assembly;
     let relative = relative.filter(|_| !assessment.noise_is_known)?;
     let has_floor = [floor.yy, floor.ytheta, floor.thetatheta]
@@ -216,4 +224,32 @@ fn of_line<'a>(
             false => 0.0,
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::StatedFloor;
+
+    #[test]
+    fn stated_noise_is_too_large_beside_a_fit_and_not_beside_none() {
+        let noise = Noise::of_the_assembly(StatedLevel {
+            relative: Some(0.01),
+            floor: StatedFloor::default(),
+        });
+        let assessment = Assessment {
+            // a quarter of the stated deviation
+            reduced_chi_squared: Some(0.0625),
+            noise_is_stated: false,
+            noise_is_known: false,
+            chi_squared_excess: 0.0,
+            line_correlation: 0.0,
+            line_correlation_excess: 0.0,
+            has_power: true,
+            is_exact: false,
+        };
+        let of = |off: f64| of_stated_noise(&noise, &assessment, Some(off));
+        assert!(of(0.004).is_some_and(|told| told.contains("is 4 times as large")));
+        assert_eq!(of(1.2), None);
+    }
 }

@@ -50,6 +50,8 @@ const LEAST_FLOOR: f64 = 1e-12;
 /// What a function says of its noise.
 #[derive(Clone, Debug)]
 pub(super) struct Roughness {
+    /// Noise as a part of the function; not known of too few lines.
+    pub(super) relative: Option<f64>,
     /// Floor of the noise, in the function's unit.
     pub(super) floor: f64,
     /// Lines whose value stands out, with how far it is from what its neighbours predict.
@@ -69,6 +71,7 @@ impl Roughness {
         };
         if values.len() < FEWEST_LINES || median == 0.0 {
             return Self {
+                relative: None,
                 floor: median,
                 outliers: Vec::new(),
                 suspicious: Vec::new(),
@@ -93,6 +96,7 @@ impl Roughness {
             false => (Vec::new(), Vec::new()),
         };
         Self {
+            relative: Some(function.level.relative),
             suspicious,
             floor: floor.max(LEAST_FLOOR * median),
             outliers,

@@ -56,6 +56,8 @@ pub enum DraftError {
 /// A file that may be a part or the assembly.
 struct Candidate {
     name: String,
+    /// Further files of the same responses, of other references.
+    further: Vec<String>,
     is_modal: bool,
     responses: BTreeSet<Dof>,
     references: BTreeSet<Dof>,
@@ -67,6 +69,33 @@ impl Candidate {
     /// Where something responds or is excited.
     fn points(&self) -> BTreeSet<Dof> {
         self.responses.union(&self.references).copied().collect()
+    }
+
+    /// Its file, or its files, as a study names them.
+    fn files(&self) -> String {
+        if self.further.is_empty() {
+            return format!("{:?}", self.name);
+        }
+        let all = std::iter::once(&self.name).chain(&self.further);
+        let all: Vec<String> = all.map(|name| format!("{name:?}")).collect();
+        format!("[{}]", all.join(", "))
+    }
+
+    /// Its file, or its files, for people.
+    fn named(&self) -> String {
+        let all = std::iter::once(&self.name).chain(&self.further);
+        all.map(String::as_str).collect::<Vec<_>>().join(" with ")
+    }
+
+    /// Whether both are of one measurement, which many programs write in one file for each reference.
+    fn is_beside(&self, other: &Self) -> bool {
+        let letters = |name: &str| name.replace(|c: char| c.is_ascii_digit(), "");
+        !self.is_modal
+            && !other.is_modal
+            && letters(&self.name) == letters(&other.name)
+            && self.responses == other.responses
+            && self.references.is_disjoint(&other.references)
+            && self.band_hz == other.band_hz
     }
 
     fn contains(&self, other: &Self) -> bool {
@@ -101,6 +130,9 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
         }
     }
     let is_in_space = found.iter().any(space::is_in_space);
+    if !is_in_space {
+        found = together(found);
+    }
     let place = assembly(&found, is_in_space);
     let (Some(place), true) = (place, found.len() >= 3) else {
         let names: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
@@ -125,15 +157,15 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     };
     let parts = found.iter().zip('a'..);
     let parts: Vec<String> = parts
-        .map(|(own, letter)| format!("{letter} {}", own.name))
+        .map(|(own, letter)| format!("{letter} {}", own.named()))
         .collect();
     let mut notes = vec![format!(
         "part {}, the assembly {}",
         parts.join(", part ").replacen(' ', " is taken to be ", 1),
-        assembly.name
+        assembly.named()
     )];
     if !others.is_empty() {
-        let names = others.iter().map(|own| own.name.as_str());
+        let names = others.iter().map(Candidate::named);
         notes.push(format!(
             "not used: {}",
             names.collect::<Vec<_>>().join(", ")
@@ -155,6 +187,21 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     })
 }
 
+/// Files of one measurement as one.
+fn together(found: Vec<Candidate>) -> Vec<Candidate> {
+    let mut all: Vec<Candidate> = Vec::new();
+    for own in found {
+        match all.iter_mut().find(|other| other.is_beside(&own)) {
+            Some(first) => {
+                first.further.push(own.name);
+                first.references.extend(own.references);
+            }
+            None => all.push(own),
+        }
+    }
+    all
+}
+
 /// Which of the files is the assembly.
 fn assembly(found: &[Candidate], is_in_space: bool) -> Option<usize> {
     let named = |words: &[&str]| {
@@ -170,7 +217,7 @@ fn assembly(found: &[Candidate], is_in_space: bool) -> Option<usize> {
     };
     named(&["assembly", "asm", "joined", "bolted", "coupled"])
         .or_else(of_all)
-        .or_else(|| named(&["c."]))
+        .or_else(|| named(&["c.", "c_", "c-"]))
         .or_else(|| found.iter().rposition(|own| !own.is_modal))
 }
 
@@ -185,6 +232,7 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
                 let hz = set.frequency_hz();
                 Candidate {
                     name,
+                    further: Vec::new(),
                     is_modal: false,
                     responses: set.functions().map(|own| own.0).collect(),
                     references: set.functions().map(|own| own.1).collect(),
@@ -204,6 +252,7 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
                     let points: BTreeSet<Dof> = model.points().iter().copied().collect();
                     Candidate {
                         name,
+                        further: Vec::new(),
                         is_modal: true,
                         responses: points.clone(),
                         references: points,
@@ -226,14 +275,14 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
          # Keys: docs/file-formats.md. CHECK: what only you can know.\n\
          method = \"frf-decoupling\"\nname = \"joint of {} and {}\"          # CHECK: what the joint is called\n\n\
          [a]                                   # the first part\n{}\n[b]                                   # the second part\n{}\n\
-         [assembly]                            # both, bolted together\nfrf = {:?}\n\
+         [assembly]                            # both, bolted together\nfrf = {}\n\
          points = [{}]   # CHECK: points of part b (points_on_a for those of a)\n\n\
          [joint]\n{}\n\n{}",
         stem(a),
         stem(b),
         part(a),
         part(b),
-        assembly.name,
+        assembly.files(),
         points.join(", "),
         model(&[a, b]),
         frequency(&[a, b, assembly], "three"),
@@ -277,8 +326,8 @@ fn part(own: &Candidate) -> String {
     };
     let place = y.map_or_else(String::new, Dof::to_string);
     format!(
-        "{key} = {:?}\njoint = {{ y = \"{place}\"{turn} }}   # CHECK: where the joint is; points: {}\n{lever}",
-        own.name,
+        "{key} = {}\njoint = {{ y = \"{place}\"{turn} }}   # CHECK: where the joint is; points: {}\n{lever}",
+        own.files(),
         some(&points, LISTED)
     )
 }

@@ -65,6 +65,26 @@ fn values_that_cannot_be_are_named_by_key() {
 }
 
 #[test]
+fn deviations_in_other_units_than_si_are_asked_about() {
+    let bench = beams();
+    #[rustfmt::skip]
+    let cases = [
+        ("position = 1", "`budget.position`: found 1", "in m, at most 0.1 (is it in millimetres?)"),
+        ("delay = 5", "`budget.delay`: found 5", "in s, at most 0.01 (is it in microseconds"),
+        ("phase = 1.5", "`budget.phase`: found 1.5", "in rad, at most 0.5 (is it in degrees?)"),
+        ("accelerometer_mass = 10", "`budget.accelerometer_mass`: found 10", "in kg, at most 5 (is it in grams?)"),
+        ("joint_mass = 30", "`budget.joint_mass`: found 30", "in kg, at most 5 (is it in grams?)"),
+        ("joint_inertia = 4", "`budget.joint_inertia`: found 4", "in kg·m², at most 0.1"),
+        ("joint_mass = -1", "`budget.joint_mass`: found -1", "in kg that is finite and not negative"),
+    ];
+    for (key, found, expected) in cases {
+        let budget = format!("budget = {{ {key} }}");
+        bench.write("study.toml", replaced(BEAMS, "budget = \"none\"", &budget));
+        bench.refused(IDENTIFY, &["study.toml: ", found, expected]);
+    }
+}
+
+#[test]
 fn a_band_without_enough_lines_is_refused() {
     let bench = beams();
     let text = |range: &str| replaced(BEAMS, "from = 5\nto = 200", range);

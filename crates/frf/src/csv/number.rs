@@ -3,7 +3,7 @@
 use bolted_joint_files::Decimal;
 use num_complex::Complex64;
 
-/// A complex number as programs write it, and what its file is now known to use: `1.2+3.4j`, `(1.2-3.4i)`, `5j`, `1.2`.
+/// A complex number as programs write it, and what its file is now known to use: `1.2+3.4j`, `(1.2-3.4i)`, `1.2 + -3.4i`, `5j`, `1.2`.
 pub(super) fn parse_complex(decimal: Decimal, text: &str) -> Option<(Complex64, Decimal)> {
     let text = text.trim();
     let inner = text
@@ -23,6 +23,11 @@ pub(super) fn parse_complex(decimal: Decimal, text: &str) -> Option<(Complex64, 
     });
     let (real, imaginary) = parts.split_at(between.unwrap_or(0));
     let imaginary: String = imaginary.split_whitespace().collect();
+    // `1.2 + -3.4i`: a plus for every number, and then the number's own sign
+    let real = match real.trim_end().strip_suffix('+') {
+        Some(before) if real.ends_with(char::is_whitespace) && !before.is_empty() => before,
+        _ => real,
+    };
     let (real, used) = match real.trim() {
         "" => (0.0, decimal),
         real => decimal.parse(real)?,
@@ -52,6 +57,8 @@ mod tests {
             (" (1.000000000000000000e+00-2.5e-01j)", 1.0, -0.25),
             ("(-1e-3+2E+4J)", -1e-3, 2e4),
             ("1.5 + 2i", 1.5, 2.0),
+            ("1.5 - 2i", 1.5, -2.0),
+            ("-1.5e-7 + -2e-11i", -1.5e-7, -2e-11),
             ("-3.4i", 0.0, -3.4),
             ("1e5j", 0.0, 1e5),
             ("j", 0.0, 1.0),
@@ -71,7 +78,7 @@ mod tests {
         assert_eq!((found, used), (Complex64::new(1.2, 3.4), Decimal::Comma));
         for text in [
             "", "1+2", "1.2+3.4", "1++2j", "1,2+3.4j", "i1", "1+2jj", "(1+2j", "e-i", "1e-+2j",
-            "()", "2+i3",
+            "()", "2+i3", "1+-2j", "1 - -2j", "+ -2j",
         ] {
             assert_eq!(parse_complex(Decimal::Either, text), None, "{text}");
         }

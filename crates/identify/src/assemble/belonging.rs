@@ -6,21 +6,17 @@ use nalgebra::DVector;
 use num_complex::Complex64;
 
 use super::super::lines::Lines;
-use bolted_joint_frf::structure::{ComplexMatrix, Partition};
+use super::stiffer::{self, Errors};
 
 /// Part of the functions by which half of the lines may be what no load at the joint does to B.
 const OUTSIDE: f64 = 0.1;
-/// Below the first resonance an assembly that yields less than this part of what it would with a rigid joint is none of A and B.
-const OF_RIGID: f64 = 0.6;
-/// Lines below the first resonance that are enough to tell.
-const ENOUGH_LINES: usize = 3;
 /// Lines that are asked.
 const ASKED: usize = 200;
 /// Singular values of B below this part of the largest say nothing of how loads at the joint act.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// What speaks against A, B and the assembly, which is in this file; points of the assembly on A are not asked.
-pub(super) fn warnings(lines: &Lines, path: &Path) -> Vec<String> {
+pub(super) fn warnings(lines: &Lines, errors: Errors<'_>, path: &Path) -> Vec<String> {
     if lines.apart.is_some() {
         return Vec::new();
     }
@@ -32,11 +28,9 @@ pub(super) fn warnings(lines: &Lines, path: &Path) -> Vec<String> {
             100.0 * part
         ));
     }
-    let stiffer: Vec<(String, f64)> = (0..lines.points.len())
-        .filter_map(|point| {
-            let part = of_rigid(lines, point).filter(|part| *part < OF_RIGID)?;
-            Some((lines.points[point].to_string(), part))
-        })
+    let stiffer: Vec<(String, f64)> = stiffer::points(lines, errors)
+        .into_iter()
+        .map(|(point, part)| (lines.points[point].to_string(), part))
         .collect();
     let least = stiffer.iter().map(|(_, part)| *part);
     if let Some(least) = least.min_by(f64::total_cmp) {
@@ -91,27 +85,6 @@ fn outside(lines: &Lines) -> Option<f64> {
     median(parts)
 }
 
-/// What the assembly yields at a point as a part of what it would with a rigid joint: the median over the lines below the first
-/// resonance; `None` where there are too few of them.
-///
-/// A joint in between adds compliance: as long as equally many modes lie below a line, H^C(K*) − H^C(∞) is positive semidefinite
-/// there, without damping.
-fn of_rigid(lines: &Lines, point: usize) -> Option<f64> {
-    let pairs = (0..lines.frequency_hz.len().min(ASKED)).map_while(|line| {
-        let measured = lines.assembly[line][(point, point)].re;
-        let rigid = rigidly(&lines.a.at(line), &lines.b_at(line))?[(point, point)].re;
-        (measured > 0.0 && rigid > 0.0).then_some(measured / rigid)
-    });
-    let parts: Vec<f64> = pairs.collect();
-    (parts.len() >= ENOUGH_LINES).then(|| median(parts.into_iter()))?
-}
-
-/// H_ss − H_sk (H_jj + H_kk)⁻¹ H_ks: with a rigid joint.
-fn rigidly(a: &ComplexMatrix, b: &Partition) -> Option<ComplexMatrix> {
-    let loads = (a + &b.joint).lu().solve(&b.joint_points)?;
-    Some(&b.points - &b.points_joint * loads)
-}
-
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     values.sort_by(f64::total_cmp);
@@ -120,8 +93,23 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use bolted_joint_frf::structure::ComplexMatrix;
+    use bolted_joint_systematic::Budget;
+    use nalgebra::DMatrix;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+
     use super::*;
-    use crate::Receptances;
+    use crate::noise::{Noise, NoiseLevel, StatedLevel};
+    use crate::receptances::{MeasuredSubstructure, Receptances};
+
+    fn said(lines: &Lines, noise: &Noise) -> Vec<String> {
+        let budget = &Budget::default();
+        warnings(lines, Errors { noise, budget }, Path::new("c.npz"))
+    }
 
     /// Two masses on a spring, B: receptance between them.
     fn b_at(omega: f64) -> ComplexMatrix {
@@ -171,8 +159,7 @@ mod tests {
     fn an_assembly_of_a_and_b_belongs_to_them_whatever_the_joint() {
         let lines = lines(|_| ());
         assert!(outside(&lines).unwrap() < 1e-9);
-        assert!(of_rigid(&lines, 0).unwrap() > 1.0);
-        assert!(warnings(&lines, Path::new("c.npz")).is_empty());
+        assert!(said(&lines, &Noise::default()).is_empty());
     }
 
     #[test]
@@ -181,16 +168,58 @@ mod tests {
             coupled[(1, 0)] = -coupled[(1, 0)];
             coupled[(0, 1)] = -coupled[(0, 1)];
         });
-        let said = warnings(&reversed, Path::new("c.npz"));
-        assert!(
-            said.iter()
-                .any(|said| said.contains("no load at the joint"))
-        );
+        let is_told = |lines: &Lines, words: &str| {
+            let said = said(lines, &Noise::default());
+            said.iter().any(|said| said.contains(words))
+        };
+        assert!(is_told(&reversed, "no load at the joint"));
         let in_g = lines(|coupled| *coupled /= Complex64::from(9.80665));
-        let said = warnings(&in_g, Path::new("c.npz"));
-        assert!(
-            said.iter()
-                .any(|said| said.contains("stiffer at 1:+Y, 2:+Y"))
-        );
+        assert!(is_told(&in_g, "stiffer at 1:+Y, 2:+Y"));
+    }
+
+    /// B as it was measured with this noise, from 1 Hz on, where what it yields as a whole is 5000 times what A does.
+    fn noisy(lines: Lines, relative: f64, seed: u64) -> Lines {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut generator) };
+        let mut factor = || {
+            let part = relative * std::f64::consts::FRAC_1_SQRT_2;
+            Complex64::new(1.0 + part * normal(), part * normal())
+        };
+        let columns = (0..3).flat_map(|column| (0..=column).map(move |row| (row, column)));
+        let places: Vec<(usize, usize)> = columns.collect();
+        let mut function = |&(row, column): &(usize, usize)| -> Vec<Complex64> {
+            let all = 0..lines.frequency_hz.len();
+            all.map(|line| lines.b.at(line)[(row, column)] * factor())
+                .collect()
+        };
+        let functions = places.iter().map(&mut function).collect();
+        let measured = MeasuredSubstructure::new(DMatrix::identity(3, 3), functions, places, None);
+        let measured = measured.with_axis(&lines.frequency_hz, vec![false; 3]);
+        Lines {
+            b: Receptances::Measured(Arc::new(measured)),
+            ..lines
+        }
+    }
+
+    #[test]
+    fn the_noise_of_a_free_b_makes_no_assembly_too_stiff_and_hides_none_that_is() {
+        let stated = Noise::of_the_assembly(StatedLevel::from(NoiseLevel {
+            relative: 0.01,
+            floor: 0.0,
+        }));
+        let stated = Noise {
+            b: stated.assembly,
+            ..stated
+        };
+        for noise in [Noise::default(), stated] {
+            for seed in 0..60 {
+                let good = noisy(lines(|_| ()), 0.01, seed);
+                assert_eq!(said(&good, &noise), [""; 0], "{seed}");
+                let in_g = lines(|coupled| *coupled /= Complex64::from(9.80665));
+                let told = said(&noisy(in_g, 0.01, seed), &noise);
+                let is_told = told.iter().any(|told| told.contains("stiffer at"));
+                assert!(is_told, "{seed} {told:?}");
+            }
+        }
     }
 }

@@ -6,11 +6,14 @@ mod belonging;
 mod both_sides;
 mod known_mass;
 mod labelled;
+mod measured_lines;
+mod mistaken;
 mod named_bands;
 mod prediction;
 mod reader;
 mod repeats;
 mod soundness;
+mod stiffer;
 mod substructure;
 
 use std::sync::Arc;
@@ -157,7 +160,12 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
         repeats: mean.repeats,
         ..substructures(study, &axis, reader)?
     };
-    let foreign = belonging::warnings(&lines, path);
+    mistaken::refused(study, &lines)?;
+    let errors = stiffer::Errors {
+        noise: &study.noise,
+        budget: &study.budget,
+    };
+    let foreign = belonging::warnings(&lines, errors, path);
     reader.warnings.extend(foreign);
     Ok(lines)
 }

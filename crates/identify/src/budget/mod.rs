@@ -3,6 +3,7 @@
 mod draws;
 mod experiment;
 mod explanation;
+mod shifted;
 mod together;
 
 use bolted_joint_statistics::chi_squared_tail;
@@ -337,6 +338,7 @@ impl Systematic {
                 ));
             }
         }
+        warnings.extend(shifted::warning(self));
         for (found, p) in &self.consistency {
             if *p < CHANCE {
                 let suspect = match self.suspects.first() {
@@ -370,7 +372,8 @@ impl Systematic {
         }
         for side in &self.without_smooth_fit {
             warnings.push(format!(
-                "no smooth modal fit of {side} was found: causes that need one, such as its frequencies, take no part"
+                "no smooth modal fit of {side} was found: causes that need one, such as its frequencies, take no part; a resonance with \
+                 fewer than three lines within its half-power bandwidth, which `bolted-joint show` names, is a frequent reason"
             ));
         }
         if !self.converged {

@@ -8,6 +8,44 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+/// What a standard deviation is in, beyond what it is none of this kind, and what it may be in instead.
+#[derive(Clone, Copy)]
+struct Unit {
+    symbol: &'static str,
+    most: f64,
+    doubt: &'static str,
+}
+
+/// Positions that are less well known are none.
+const POSITION: Unit = Unit {
+    symbol: "m",
+    most: 0.1,
+    doubt: "is it in millimetres?",
+};
+/// Delays of channels are parts of a sample.
+const DELAY: Unit = Unit {
+    symbol: "s",
+    most: 0.01,
+    doubt: "is it in microseconds or milliseconds?",
+};
+const PHASE: Unit = Unit {
+    symbol: "rad",
+    most: 0.5,
+    doubt: "is it in degrees?",
+};
+/// Of an accelerometer, or of a bolt.
+const MASS: Unit = Unit {
+    symbol: "kg",
+    most: 5.0,
+    doubt: "is it in grams?",
+};
+/// Of a bolt with its washers.
+const INERTIA: Unit = Unit {
+    symbol: "kg·m²",
+    most: 0.1,
+    doubt: "is it in g·mm² or kg·mm²?",
+};
+
 /// `budget = "none"`, or a table of standard deviations.
 pub(super) enum BudgetKey {
     None,
@@ -68,56 +106,67 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
         Some(BudgetKey::Table(table)) => table,
     };
     let careful = Budget::default();
-    let of = |name: &str, unit: &str, given: Option<Deviation>, otherwise: f64| {
+    let not_negative = |name: &str, unit: &str, value: f64| {
+        let expected =
+            format!("a standard deviation{unit} that is finite and not negative, or \"exact\"");
+        study.not_negative(format_args!("budget.{name}"), value, expected)
+    };
+    let part = |name: &str, given: Option<Deviation>, otherwise: f64| {
         let Some(Deviation(value)) = given else {
             return Ok(otherwise);
         };
-        let expected =
-            format!("a standard deviation{unit} that is finite and not negative, or \"exact\"");
-        let key = format_args!("budget.{name}");
-        study.not_negative(key, value, expected)?;
-        if unit.is_empty() {
-            study.part_of_whole(key, value)?;
-        }
+        not_negative(name, "", value)?;
+        study.part_of_whole(format_args!("budget.{name}"), value)?;
+        Ok::<f64, StudyError>(value)
+    };
+    let number = |name: &str, unit: Unit, given: Option<Deviation>, otherwise: f64| {
+        let Some(Deviation(value)) = given else {
+            return Ok(otherwise);
+        };
+        let Unit {
+            symbol,
+            most,
+            doubt,
+        } = unit;
+        not_negative(name, &format!(" in {symbol}"), value)?;
+        study.ensure(
+            value <= most,
+            format_args!("budget.{name}"),
+            value,
+            format_args!("a standard deviation in {symbol}, at most {most} ({doubt})"),
+        )?;
         Ok::<f64, StudyError>(value)
     };
     Ok(Budget {
-        gain: of("gain", "", table.gain, careful.gain)?,
-        common_gain: of("common_gain", "", table.common_gain, careful.common_gain)?,
-        channel_gain: of("channel_gain", "", table.channel_gain, careful.channel_gain)?,
-        delay_s: of("delay", " in s", table.delay, careful.delay_s)?,
-        phase_rad: of("phase", " in rad", table.phase, careful.phase_rad)?,
-        accelerometer_mass_kg: of(
+        gain: part("gain", table.gain, careful.gain)?,
+        common_gain: part("common_gain", table.common_gain, careful.common_gain)?,
+        channel_gain: part("channel_gain", table.channel_gain, careful.channel_gain)?,
+        delay_s: number("delay", DELAY, table.delay, careful.delay_s)?,
+        phase_rad: number("phase", PHASE, table.phase, careful.phase_rad)?,
+        accelerometer_mass_kg: number(
             "accelerometer_mass",
-            " in kg",
+            MASS,
             table.accelerometer_mass,
             careful.accelerometer_mass_kg,
         )?,
-        position_m: of("position", " in m", table.position, careful.position_m)?,
-        frequency: of("frequency", "", table.frequency, careful.frequency)?,
-        youngs_modulus: of(
+        position_m: number("position", POSITION, table.position, careful.position_m)?,
+        frequency: part("frequency", table.frequency, careful.frequency)?,
+        youngs_modulus: part(
             "youngs_modulus",
-            "",
             table.youngs_modulus,
             careful.youngs_modulus,
         )?,
-        density: of("density", "", table.density, careful.density)?,
-        joint_mass_kg: of(
-            "joint_mass",
-            " in kg",
-            table.joint_mass,
-            careful.joint_mass_kg,
-        )?,
-        joint_inertia_kg_m2: of(
+        density: part("density", table.density, careful.density)?,
+        joint_mass_kg: number("joint_mass", MASS, table.joint_mass, careful.joint_mass_kg)?,
+        joint_inertia_kg_m2: number(
             "joint_inertia",
-            " in kg·m²",
+            INERTIA,
             table.joint_inertia,
             careful.joint_inertia_kg_m2,
         )?,
-        loss_factor: of("loss_factor", "", table.loss_factor, careful.loss_factor)?,
-        difference_stiffness: of(
+        loss_factor: part("loss_factor", table.loss_factor, careful.loss_factor)?,
+        difference_stiffness: part(
             "fd_stiffness",
-            "",
             table.fd_stiffness,
             careful.difference_stiffness,
         )?,

@@ -326,9 +326,9 @@ impl Study {
         .collect()
     }
 
-    /// What rotations by differences lose, where nothing corrects them and the study does not say that its set-up is exact.
+    /// What rotations by differences lose, where nothing corrects them. A set-up that is exact loses as much.
     pub(super) fn rotations_not_corrected(&self) -> Vec<String> {
-        if !self.has_causes() || self.model.dofs() < 2 {
+        if self.model.dofs() < 2 {
             return Vec::new();
         }
         let of = |(key, substructure): (&str, &Substructure)| {

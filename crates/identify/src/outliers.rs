@@ -101,7 +101,6 @@ impl Candidates {
                         {
                             let hz = lines.frequency_hz[*peak];
                             unresolved.insert(format!("{set} at {hz:.1} Hz"));
-                            continue;
                         }
                         let outlier = Outlier {
                             set: set.clone(),

@@ -1,9 +1,12 @@
 """What is said of studies and measurements that are sound, and of mistakes that are seen before or beside the fit."""
 
+import pathlib
+import shutil
 import subprocess
 
 import numpy as np
 import pytest
+import pyuff
 import rig
 from rig import Mistakes
 
@@ -66,3 +69,20 @@ def test_a_response_has_the_lines_of_what_was_measured(program, tmp_path):
     done = respond()
     assert done.returncode == 1
     assert "[frequency]: found nothing" in done.stderr and "such as from = 10 and to = 500" in done.stderr
+
+
+EXAMPLE = pathlib.Path(__file__).parents[2] / "examples" / "tol-m10x16"
+
+
+def test_a_passive_joint_far_from_what_the_functions_ask_for_is_refused(program, tmp_path):
+    """Phases of the assembly that are counted the other way: damping that feeds energy would need another stiffness, 22,000 N·m/rad
+    for 1,290. No noise is stated that would say that nothing fits."""
+    shutil.copytree(EXAMPLE, tmp_path, dirs_exist_ok=True)
+    sets = [one for one in pyuff.UFF(str(EXAMPLE / "assembly.uff")).read_sets() if one["type"] == 58]
+    for one in sets:
+        one["data"] = one["data"].conj()
+    (tmp_path / "assembly.uff").unlink()
+    pyuff.UFF(str(tmp_path / "assembly.uff")).write_sets(sets)
+    done = run(program, tmp_path / "study.toml", "--no-rivals")
+    assert done.returncode == 3, done.stderr
+    assert "the functions ask for a joint that feeds energy: k_thetatheta of the passive one is " in done.stderr, done.stderr

@@ -6,16 +6,22 @@ use bolted_joint_study::overstated_noise;
 
 use super::assessment::Assessment;
 use super::identification::{AssemblyFit, Identification};
+use super::joint_estimate::JointEstimate;
 use super::layout::Bolts;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointModel;
 use super::noise::{Noise, StatedLevel};
 use super::observed::Observed;
 use super::slips::{FoundSlip, are_certain};
+use super::unknown::Unknown;
 
 /// Relative difference that half of the measured values must stay below. A joint model that is too simple leaves a few tens of per
 /// cent around the resonances; beyond this the computed structure is another one than the measured one.
 const MISFIT: f64 = 0.5;
+
+/// Standard deviations between a stiffness and that of the free estimate beyond which they are not the same joint. Damping is not
+/// asked: an error of the phase, as of a delay, makes it negative and leaves the stiffness.
+const FAR_FROM_FREE: f64 = 10.0;
 
 /// Standard deviations that an unknown may still move when the search ends: added to its error, √(1 + 0.3²), they widen it by less
 /// than a twentieth. Where the noise follows from a residual that is none, renewed weights may go to and fro for ever.
@@ -100,6 +106,7 @@ pub(super) fn reasons_against(
                 ));
             }
         }
+        reasons.extend(of_energy(joint, names));
         let diagonal = joint.free.iter().map(|free| free.stiffness.diagonal());
         for (bolt, _) in diagonal.enumerate().filter(|(_, k)| k.max() <= 0.0) {
             let bolt = names.get(bolt).map(|name| format!("{name}: "));
@@ -119,6 +126,26 @@ pub(super) fn reasons_against(
         ));
     }
     reasons
+}
+
+/// That the functions ask for a joint that feeds energy, and for another stiffness than that of the passive one: the nearest of these
+/// is none of theirs.
+fn of_energy(joint: &JointEstimate, names: &[String]) -> Option<String> {
+    let deviations = joint.covariance.standard_deviation();
+    let all = joint.covariance.unknowns.iter().zip(deviations);
+    let moved = all.filter_map(|(unknown, deviation)| {
+        let [found, free] = [joint.bolts(), &joint.free]
+            .map(|own| own.get(unknown.joint).map(|own| unknown.value(own)));
+        let by = (found? - free?).abs() / deviation;
+        (unknown.is_direct_stiffness() && by > FAR_FROM_FREE).then_some((unknown, by))
+    });
+    let (unknown, by) = moved.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    Some(format!(
+        "the functions ask for a joint that feeds energy{}: {} of the passive one is {by:.0} standard deviations from theirs; check \
+         signs, and whether phases are counted as in e^(+jωt)",
+        joint.place(),
+        unknown.label(names)
+    ))
 }
 
 /// Whether the residual is noise of a size that somebody knows. Where its size follows from the residual, no test tells it from a

@@ -13,7 +13,6 @@ use super::model::JointModel;
 use super::noise::{Noise, StatedLevel};
 use super::observed::Observed;
 use super::slips::{FoundSlip, are_certain};
-use super::unknown::Unknown;
 
 /// Relative difference that half of the measured values must stay below. A joint model that is too simple leaves a few tens of per
 /// cent around the resonances; beyond this the computed structure is another one than the measured one.

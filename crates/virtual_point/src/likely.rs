@@ -67,7 +67,8 @@ mod tests {
                 let errors = found.unwrap().unwrap();
                 let places = point.set_up().places(role);
                 let left = |matrix: &DMatrix<f64>| {
-                    let inverse = matrix.clone().pseudo_inverse(1e-12).unwrap();
+                    let inverse =
+                        (matrix.transpose() * matrix).try_inverse().unwrap() * matrix.transpose();
                     let rest = (DMatrix::identity(places.count(), places.count())
                         - matrix * inverse)
                         .map(Complex64::from);

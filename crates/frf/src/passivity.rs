@@ -16,14 +16,26 @@ const USUAL_NOISE: f64 = 0.02;
 /// The part of the lines, those of the smallest values, at which noise that does not follow the values shows.
 const SMALLEST: f64 = 0.25;
 
+/// Which lines of a function are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// All, also those at which the phase of this function is noise: where many functions decide together.
+    Every,
+    /// Those at which it is more.
+    BeyondNoise,
+}
+
 /// Whether the receptance of a drive point is that of a structure that feeds energy: Im H ≤ 0 where it dissipates, e^{jωt} taken.
-/// Each line counts the same at which that part is more than noise.
+/// Each line that is asked counts the same.
 #[must_use]
-pub fn feeds_energy(drive_point: &[Complex64]) -> bool {
-    let beyond = beyond_noise(drive_point);
-    let lines = drive_point.iter().zip(beyond);
+pub fn feeds_energy(drive_point: &[Complex64], asked: Asked) -> bool {
+    let lines: Vec<bool> = match asked {
+        Asked::Every => drive_point.iter().map(|h| h.norm() > 0.0).collect(),
+        Asked::BeyondNoise => beyond_noise(drive_point),
+    };
+    let lines = drive_point.iter().zip(lines);
     let parts: Vec<f64> = lines
-        .filter(|(_, is_beyond)| *is_beyond)
+        .filter(|(_, is_asked)| *is_asked)
         .map(|(h, _)| h.im / h.norm())
         .collect();
     let sizes: f64 = parts.iter().map(|part| part.abs()).sum();
@@ -40,8 +52,11 @@ pub fn beyond_noise(function: &[Complex64]) -> Vec<bool> {
 
 /// Whether the phase rises through the resonances, as it does with e^{−jωt}, whatever the function's sign.
 #[must_use]
-pub fn turns_backwards(function: &[Complex64]) -> bool {
-    let noise = Noise::of(function);
+pub fn turns_backwards(function: &[Complex64], asked: Asked) -> bool {
+    let noise = match asked {
+        Asked::Every => Noise::NONE,
+        Asked::BeyondNoise => Noise::of(function),
+    };
     // Im(H_{k+1} H_k*) < 0 where the phase falls
     let turns = function.windows(2).map(|pair| {
         let turn = (pair[1] * pair[0].conj()).im;
@@ -63,6 +78,11 @@ struct Noise {
 }
 
 impl Noise {
+    const NONE: Self = Self {
+        relative: 0.0,
+        floor: 0.0,
+    };
+
     /// As second differences show it, which are small where H is smooth. They have the variance (1 + 4 + 1) σ²; the median of a
     /// squared modulus is ln 2 of its mean.
     fn of(function: &[Complex64]) -> Self {
@@ -111,7 +131,10 @@ mod tests {
     }
 
     fn both(function: &[Complex64]) -> [bool; 2] {
-        [feeds_energy(function), turns_backwards(function)]
+        [
+            feeds_energy(function, Asked::BeyondNoise),
+            turns_backwards(function, Asked::BeyondNoise),
+        ]
     }
 
     #[test]
@@ -147,7 +170,11 @@ mod tests {
         for seed in 0..50 {
             for lines in [4..300, 4..7] {
                 let own = free(seed, lines, |h| h);
-                assert!(!feeds_energy(&own), "{seed} {}", own.len());
+                assert!(
+                    !feeds_energy(&own, Asked::BeyondNoise),
+                    "{seed} {}",
+                    own.len()
+                );
             }
             let turned = both(&free(seed, 4..300, |h| -h));
             assert_eq!(turned, [true, false], "{seed}");

@@ -402,7 +402,7 @@ mod tests {
     }
 
     #[test]
-    fn a_peak_that_the_lines_cannot_follow_is_no_outlier_and_a_bad_value_is_one() {
+    fn a_peak_of_most_functions_is_no_outlier_and_a_bad_value_is_one() {
         let mut told = Vec::new();
         for second_hz in [2962.0, 2965.0, 2972.0, 2974.0, 2975.0, 2977.0] {
             for seed in 0..12 {

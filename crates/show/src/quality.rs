@@ -1,6 +1,6 @@
 //! What measured functions must be, whatever the structure: passive at a drive point, reciprocal between two points.
 
-use bolted_joint_frf::{Dof, FrfSet, Sign, beyond_noise, turns_backwards};
+use bolted_joint_frf::{Asked, Dof, FrfSet, Sign, beyond_noise, turns_backwards};
 use num_complex::Complex64;
 
 /// How a function behaves whose load and response are in one place and direction.
@@ -61,7 +61,7 @@ pub fn drive_points(set: &FrfSet) -> Vec<DrivePoint> {
                 } else {
                     0.0
                 },
-                turns_backwards: turns_backwards(values),
+                turns_backwards: turns_backwards(values, Asked::BeyondNoise),
             }
         })
         .collect()

@@ -57,12 +57,12 @@ pub enum SpatialError {
         "{} led to a joint that explains the functions; check directions, positions, signs and gains of the set-up \
          (warnings name what fits least), or state larger errors of it in budget",
         match tried {
-            1 => "the only start of the search has not".to_owned(),
-            tried => format!("none of the {tried} starts of the search has"),
+            1 => "the only search has not".to_owned(),
+            tried => format!("none of {tried} searches has"),
         }
     )]
     NothingFound {
-        /// Starts.
+        /// Searches.
         tried: usize,
     },
     /// An interface of a chain.

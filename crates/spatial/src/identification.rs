@@ -127,7 +127,7 @@ pub struct SpatialIdentification {
     pub reduced_chi_squared: Option<f64>,
     /// Squares of the errors of the set-up that were found, over those of the budget; `None` without errors.
     pub budget_used: Option<f64>,
-    /// Starts of the search, and how many came to the same minimum.
+    /// Searches, from one start or on one way each, and how many came to the same minimum.
     pub starts: [usize; 2],
     /// What errors of the set-up add to the deviations: of sensors and of impacts of each side, where they take part.
     pub groups: Vec<Group>,

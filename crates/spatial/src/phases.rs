@@ -1,6 +1,7 @@
 //! Whether the functions of the virtual points are those of structures that take up energy, before any joint is sought: phases that
 //! are counted the other way turn dampers into sources, and the joint would have to make up for it.
 
+use bolted_joint_frf::{Asked, feeds_energy, turns_backwards};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
@@ -61,27 +62,8 @@ fn of_assembly(
     (count == p * q).then_some(lines)
 }
 
-/// A motion whose imaginary parts are positive on balance, by this part of their sum, answers as if energy were fed.
-const ACTIVE: f64 = 0.5;
-
-/// Whether the receptance of a motion by its own load is that of a structure that feeds energy. All lines count the same, also those
-/// at which a single function would be noise: it is most of the motions together that decide.
-fn feeds_energy(receptance: &[Complex64]) -> bool {
-    let parts = receptance.iter().map(|h| h.im / h.norm());
-    let parts: Vec<f64> = parts.filter(|part| part.is_finite()).collect();
-    let sizes: f64 = parts.iter().map(|part| part.abs()).sum();
-    parts.iter().sum::<f64>() > ACTIVE * sizes
-}
-
-/// Whether the phase rises through the resonances, as it does with e^{−jωt}: Im(H_{k+1} H_k*) > 0 on balance.
-fn turns_backwards(receptance: &[Complex64]) -> bool {
-    let turns = receptance
-        .windows(2)
-        .map(|pair| (pair[1] * pair[0].conj()).im);
-    turns.sum::<f64>() > 0.0
-}
-
-/// That most of the motions answer their own loads as if the structure gave energy.
+/// That most of the motions answer their own loads as if the structure gave energy. All lines are asked: coarse ones would hide the
+/// phase of a single motion behind its noise, and it is most of them together that decide.
 fn complaint(
     name: &str,
     side: &Side,
@@ -93,11 +75,17 @@ fn complaint(
     let functions: Vec<Vec<Complex64>> = (0..motions)
         .map(|motion| reduced.iter().map(|line| line[(motion, motion)]).collect())
         .collect();
-    let active: Vec<_> = functions.iter().filter(|own| feeds_energy(own)).collect();
+    let active: Vec<_> = functions
+        .iter()
+        .filter(|own| feeds_energy(own, Asked::Every))
+        .collect();
     if 2 * active.len() <= motions {
         return Ok(None);
     }
-    let turned = active.iter().filter(|own| turns_backwards(own)).count();
+    let turned = active
+        .iter()
+        .filter(|own| turns_backwards(own, Asked::Every))
+        .count();
     let why = match 2 * turned > active.len() {
         true => "phases are counted the other way (e^−jωt)",
         false => "the sign of all channels or of all impacts is turned",

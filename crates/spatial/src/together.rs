@@ -37,9 +37,9 @@ const AS_LOW: f64 = 1e-3;
 /// Stiffness in parts of the structures' own from which on a joint is as good as rigid: a search may have lost it there.
 const RIGID: f64 = 1e4;
 
-/// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many starts were tried and how many came to the same
-/// minimum. None is tried after one that noise explains, where its level is stated, after one that leaves nothing, or after two that
-/// agree.
+/// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, two from each start, and how many
+/// came to the same minimum. None follows one that noise explains, where its level is stated, one that leaves nothing, or two that
+/// agree on what is not far above the noise.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,

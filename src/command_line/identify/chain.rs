@@ -119,7 +119,7 @@ fn summary(study: &ChainStudy, found: &ChainIdentification) -> String {
     text += &apart_text(&found.apart);
     let _ = writeln!(
         text,
-        "residual {} % of the functions; {} of {} starts came to the same minimum",
+        "residual {} % of the functions; {} of {} searches came to the same minimum",
         number(100.0 * found.relative_rms, 3),
         found.starts[1],
         found.starts[0]

@@ -11,41 +11,30 @@ const SAME: f64 = 1e-5;
 /// Refuses a file of the assembly that is, or has the functions of, A or B: no joint makes nothing of two structures.
 pub(super) fn refused(study: &Study, lines: &Lines) -> Result<(), IdentifyError> {
     let of_b = lines.points.len() - study.points_on_a;
-    let sides = [
-        (
-            &study.b,
-            'B',
-            lines.structures()[1],
-            lines.points[..of_b].iter(),
-            0,
-        ),
-        (
-            &study.a,
-            'A',
-            lines.structures()[0],
-            lines.points[of_b..].iter(),
-            of_b,
-        ),
-    ];
-    for (substructure, name, receptances, points, first) in sides {
-        let dofs = receptances.size() - points.len();
-        for (number, &point) in points.enumerate() {
-            let place = (first + number, first + number);
-            let is_same = lines.measured.contains(&place)
-                && (0..lines.frequency_hz.len()).all(|line| {
-                    let own = receptances.at(line)[(dofs + number, dofs + number)];
-                    let assembled = lines.assembly[line][place];
-                    (own - assembled).norm() <= SAME * assembled.norm()
-                });
-            let is_same_file = || file_in_common(study, substructure).is_some();
-            if is_same || is_same_file() {
-                return Err(IdentifyError::AssemblyIsSubstructure {
-                    path: study.assembly.path.clone(),
-                    file: file_in_common(study, substructure).map(Path::to_owned),
-                    substructure: name,
-                    point,
-                });
-            }
+    let [a, b] = lines.structures();
+    for (name, substructure, receptances, places) in [
+        ('B', &study.b, b, 0..of_b),
+        ('A', &study.a, a, of_b..lines.points.len()),
+    ] {
+        let file = file_in_common(study, substructure);
+        let dofs = receptances.size() - places.len();
+        let is_its = |(number, place): &(usize, usize)| {
+            let (own, place) = ((dofs + number, dofs + number), (*place, *place));
+            file.is_some()
+                || lines.measured.contains(&place)
+                    && (0..lines.frequency_hz.len()).all(|line| {
+                        let assembled = lines.assembly[line][place];
+                        let alone = receptances.at(line)[own];
+                        (alone - assembled).norm() <= SAME * assembled.norm()
+                    })
+        };
+        if let Some((_, place)) = places.enumerate().find(is_its) {
+            return Err(IdentifyError::AssemblyIsSubstructure {
+                path: study.assembly.path.clone(),
+                file: file.map(Path::to_owned),
+                substructure: name,
+                point: lines.points[place],
+            });
         }
     }
     Ok(())

@@ -6,7 +6,7 @@ use std::path::Path;
 use num_complex::Complex64;
 
 use super::labelled::Labelled;
-use bolted_joint_frf::{Dof, feeds_energy};
+use bolted_joint_frf::{Asked, Dof, feeds_energy};
 
 /// H_pq and H_qp may differ by this part of them at half of the lines.
 const RECIPROCAL: f64 = 0.2;
@@ -17,7 +17,7 @@ const MORE_ALIKE: f64 = 0.3;
 pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec<String> {
     let (mut found, mut signs) = (Vec::new(), Vec::new());
     for &(p, q) in &functions.measured {
-        if p == q && feeds_energy(functions.function(p, p)) {
+        if p == q && feeds_energy(functions.function(p, p), Asked::BeyondNoise) {
             signs.push(labels[p].to_string());
         }
         if p < q && functions.measured.contains(&(q, p)) {

@@ -10,8 +10,8 @@ use crate::{Role, Tolerance, VirtualPoint, VirtualPointError};
 const ROUNDS: usize = 2;
 
 impl VirtualPoint {
-    /// η, in m, rad and parts, in the order of [`Places::parameters`], that explain best within the budget what is not rigid;
-    /// `None` where no search leads there.
+    /// η, in m, rad and parts, in the order of [`Places::parameters`](crate::Places::parameters), that explain best
+    /// within the budget what is not rigid; `None` where no search leads there.
     ///
     /// # Errors
     ///

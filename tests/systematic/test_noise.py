@@ -111,26 +111,39 @@ def averaged(z, relative, floor, count, generator):
     return cross / power, abs(cross) ** 2 / (power * (abs(response) ** 2).sum(0))
 
 
+def coherent(program, folder, relative, floor, count, seed, computed_b=False):
+    """What the program finds with coherences of so many averages beside the functions."""
+    generator = np.random.default_rng(seed)
+    study = study_with(folder, EXACT, "", computed_b)
+    text = study.read_text(encoding="utf-8")
+    for name in "AC" if computed_b else "ABC":
+        h, coherence = averaged(EXACT[name], relative, floor, count, generator)
+        np.savez(
+            folder / f"{name}.npz", frequency=rig.FREQUENCY, frf=h, coherence=coherence, response=rig.LABELS[name],
+            reference=rig.LABELS[name], quantity="receptance", axes="frequency,response,reference",
+        )
+        text = text.replace(f'frf = "{name}.npz"', f'frf = "{name}.npz"\naverages = {count}')
+    study.write_text(text, encoding="utf-8")
+    return run(program, study)
+
+
 @pytest.mark.parametrize("count", [10, 30, 100])
 @pytest.mark.parametrize("relative, floor", [(0.001, 0), (0.01, 0), (0.05, 0), (0, 0.01)])
 def test_variances_from_coherence_lead_to_an_estimate(program, tmp_path, count, relative, floor):
     for seed in range(3):
-        generator = np.random.default_rng(seed)
-        study = study_with(tmp_path, EXACT, "")
-        for name, z in EXACT.items():
-            h, coherence = averaged(z, relative, floor, count, generator)
-            np.savez(
-                tmp_path / f"{name}.npz", frequency=rig.FREQUENCY, frf=h, coherence=coherence, response=rig.LABELS[name],
-                reference=rig.LABELS[name], quantity="receptance", axes="frequency,response,reference",
-            )
-        text = study.read_text(encoding="utf-8")
-        for name in EXACT:
-            text = text.replace(f'frf = "{name}.npz"', f'frf = "{name}.npz"\naverages = {count}')
-        study.write_text(text, encoding="utf-8")
-        found = run(program, study)
+        found = coherent(program, tmp_path, relative, floor, count, seed)
         assert found.whole["usable"], found.stderr
         assert abs(found.z).max() < 5
         assert not outliers(found)
+
+
+@pytest.mark.parametrize("count", [10, 100])
+def test_variances_from_coherence_draw_the_estimate_nowhere(program, tmp_path, count):
+    """A value that errs upwards has the higher coherence: taken for better for that, it moved k_yy by 1.3 deviations."""
+    z = np.array([coherent(program, tmp_path, 0.05, 0, count, seed, computed_b=True).z for seed in range(24)])
+    # 3.5 deviations of the mean of 24 draws
+    assert abs(z.mean(0)).max() < 0.72
+    assert np.mean(abs(z) < 1.96) > 0.9
 
 
 # Number 19, of two stiff bolts with a joint of their own, ends in a local minimum.

@@ -46,7 +46,7 @@ pub(super) struct Block {
     pub(super) measured: Vec<Complex64>,
     /// Σ|y − mean|² over the measurements of each entry and line.
     pub(super) scatter: Vec<f64>,
-    /// Variance of one measurement as a fraction of |H|², where it is known line by line; else empty.
+    /// Variance of one measurement, in the square of its unit, where it is known line by line; else empty.
     pub(super) known: Vec<f64>,
     /// Whether what was measured of this assembly at a line is left out; empty if nothing is.
     pub(super) left_out: Vec<bool>,
@@ -54,6 +54,9 @@ pub(super) struct Block {
 
 /// No measurement is taken for better than that: its reciprocal is a number.
 const LEAST_VARIANCE: f64 = 1e-300;
+/// A measured |H|² counts for at least this part of the smaller one beside it: a value that is next to nothing between others
+/// is not exact for that.
+const LEAST_OF_NEIGHBOURS: f64 = 0.1;
 
 impl Block {
     /// The `chosen` ones of `lines`, whose joint is number `joint` of those that are sought.
@@ -156,12 +159,12 @@ impl Block {
         self.own = interleaved(own.collect(), chosen.len());
     }
 
-    /// `places` of each entry, and σ²/|H|² of each of them over the lines where it is known.
+    /// `places` of each entry, and σ² of each of them over the lines where it is known.
     fn push_assembly(
         &mut self,
         lines: &Lines,
         places: &[Vec<(usize, usize)>],
-        variances: Option<&[Vec<&[f64]>]>,
+        variances: Option<&[Vec<Vec<f64>>]>,
         line: usize,
     ) {
         let assembly = &lines.assembly[line];
@@ -253,15 +256,28 @@ fn interleaved(functions: Vec<Vec<Complex64>>, lines: usize) -> Vec<Complex64> {
     values
 }
 
-/// σ²/|H|² of each place over the lines, where it is known.
-fn variances<'lines>(
-    lines: &'lines Lines,
-    places: &[Vec<(usize, usize)>],
-) -> Option<Vec<Vec<&'lines [f64]>>> {
-    let known = lines.relative_variance.as_ref()?;
-    let of_place = |place: &(usize, usize)| {
-        let index = lines.measured.iter().position(|other| other == place)?;
-        Some(known.get(index)?.as_slice())
+/// σ² of each place of each entry over the lines, where it is known.
+///
+/// It is σ²/|H|² of coherence times the |H|² of the same measurement, which is Syy(1 − γ²)/(n Sff): what is left of the
+/// response, and independent of the error of H₁. Times a computed |H|² a value that errs upwards would have a smaller variance
+/// than one that errs downwards, and every estimate would err upwards.
+fn variances(lines: &Lines, places: &[Vec<(usize, usize)>]) -> Option<Vec<Vec<Vec<f64>>>> {
+    let relative = lines.relative_variance.as_ref()?;
+    let of_place = |&place: &(usize, usize)| {
+        let index = lines.measured.iter().position(|&other| other == place)?;
+        let power = |line: usize| lines.assembly[line][place].norm_sqr();
+        let absolute = |(line, relative): (usize, &f64)| {
+            let beside = [line.checked_sub(1), Some(line + 1)];
+            let beside = beside.into_iter().flatten();
+            let beside = beside
+                .filter(|&line| line < lines.assembly.len())
+                .map(power);
+            let least = LEAST_OF_NEIGHBOURS * beside.fold(f64::INFINITY, f64::min);
+            let least = if least.is_finite() { least } else { 0.0 };
+            relative * power(line).max(least)
+        };
+        let relative = relative.get(index)?.iter().enumerate();
+        Some(relative.map(absolute).collect())
     };
     let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
     places.iter().map(of_entry).collect()

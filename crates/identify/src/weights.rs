@@ -99,7 +99,7 @@ impl Objective<'_> {
                     } else {
                         entry.floor.own
                     },
-                    known: known.map_or(entry.floor.stated, |known| known * entry.power),
+                    known: known.unwrap_or(entry.floor.stated),
                     count: 1.0,
                 };
                 let one = of_one(entry.known);
@@ -130,12 +130,12 @@ impl Objective<'_> {
     }
 }
 
-/// Variance of one measurement of the assembly from its computed |H^C|², or from what is `known` of it as a fraction of that.
+/// Variance of one measurement of the assembly from its computed |H^C|², or what is `known` of it.
 #[inline]
 pub(super) fn of_one(level: Size, floor: Floor, known: Option<f64>, power: f64) -> f64 {
     let least = LEAST_RELATIVE * LEAST_RELATIVE * power;
     let variance = match known {
-        Some(known) => known * power,
+        Some(known) => known,
         None => level.variance(power, floor),
     };
     if variance < least { least } else { variance }
@@ -146,7 +146,7 @@ pub(super) fn of_one(level: Size, floor: Floor, known: Option<f64>, power: f64) 
 pub(super) fn of_lanes(level: Size, floor: Floor, known: Option<Reals>, power: Reals) -> Reals {
     let least = Reals::all(LEAST_RELATIVE * LEAST_RELATIVE) * power;
     let variance = match known {
-        Some(known) => known * power,
+        Some(known) => known,
         None => {
             Reals::all(level.relative * level.relative) * power + Reals::all(floor.variance(level))
         }

@@ -22,6 +22,9 @@ const MISFIT: f64 = 0.5;
 /// asked: an error of the phase, as of a delay, makes it negative and leaves the stiffness.
 const FAR_FROM_FREE: f64 = 10.0;
 
+/// The same in parts of the stiffness: of data without noise every difference is many deviations.
+const FAR_IN_PARTS: f64 = 0.02;
+
 /// Standard deviations that an unknown may still move when the search ends: added to its error, √(1 + 0.3²), they widen it by less
 /// than a twentieth. Where the noise follows from a residual that is none, renewed weights may go to and fro for ever.
 pub(super) const TOLERABLE_UNREST: f64 = 0.3;
@@ -135,8 +138,10 @@ fn of_energy(joint: &JointEstimate, names: &[String]) -> Option<String> {
     let moved = all.filter_map(|(unknown, deviation)| {
         let [found, free] = [joint.bolts(), &joint.free]
             .map(|own| own.get(unknown.joint).map(|own| unknown.value(own)));
-        let by = (found? - free?).abs() / deviation;
-        (unknown.is_direct_stiffness() && by > FAR_FROM_FREE).then_some((unknown, by))
+        let (found, free) = (found?, free?);
+        let by = (found - free).abs() / deviation;
+        let is_far = by > FAR_FROM_FREE && (found - free).abs() > FAR_IN_PARTS * found.abs();
+        (unknown.is_direct_stiffness() && is_far).then_some((unknown, by))
     });
     let (unknown, by) = moved.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
     Some(format!(

@@ -2,7 +2,8 @@
 //!
 //! Beside noise of a thousandth, sensors a millimetre off leave residuals of a half, and the search for both goes astray. So
 //! the noise is taken as large as the residuals at first, and let down as they shrink: the errors that matter most come first, and
-//! each step begins near its end. Starts are those beside the errors that each structure tells by itself.
+//! each step begins near its end. Starts are those beside the errors that each structure tells by itself, and those without
+//! errors: where one kind leads astray, the other one often does not.
 
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
@@ -54,11 +55,14 @@ pub(crate) fn together(
         balance,
         ..thin.clone()
     });
-    let mut starts: Vec<(f64, Unknowns)> = starts(&known, level)?
-        .map(|joint| joint.beside(&likely))
-        .filter_map(|start| Some((cost(&thin, &start, level).ok()?, start)))
-        .collect();
-    starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    let lowest_first = |starts: &mut dyn Iterator<Item = Unknowns>| {
+        let known = starts.filter_map(|start| Some((cost(&thin, &start, level).ok()?, start)));
+        let mut sorted: Vec<(f64, Unknowns)> = known.collect();
+        sorted.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        sorted
+    };
+    let beside = lowest_first(&mut starts(&known, level)?.map(|joint| joint.beside(&likely)));
+    let alone = lowest_first(&mut starts(&thin, level)?);
     let numbers = thin.numbers() as f64;
     let explained = |fit: &Fit| {
         let errors = squares_of_errors(&thin, &fit.unknowns);
@@ -70,9 +74,17 @@ pub(crate) fn together(
     };
     let mut best: Option<Fit> = None;
     let (mut tried, mut agreeing) = (0, 0);
-    let tries = starts
-        .iter()
-        .flat_map(|start| ways.each_ref().map(|way| (way, start)));
+    let [curved, straight] = &ways;
+    let tries = (0..beside.len().max(alone.len())).flat_map(|i| {
+        let ways = [
+            (curved, &beside),
+            (straight, &alone),
+            (straight, &beside),
+            (curved, &alone),
+        ];
+        ways.map(|(way, starts)| starts.get(i).map(|start| (way, start)))
+    });
+    let tries = tries.flatten();
     for (way, (residual, start)) in tries {
         tried += 1;
         let Ok(fit) = let_down(way, start.clone(), *residual, level) else {

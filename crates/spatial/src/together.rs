@@ -38,88 +38,177 @@ const AS_LOW: f64 = 1e-3;
 /// Stiffness in parts of the structures' own from which on a joint is as good as rigid: a search may have lost it there.
 const RIGID: f64 = 1e4;
 
-/// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, two from each start, and how many
-/// came to the same minimum. None follows one that noise explains, where its level is stated, one that leaves nothing, or two that
-/// agree on what is not far above the noise.
+/// Starts of each kind that are followed before those beside the errors of the lowest search.
+const AT_FIRST: usize = 4;
+
+/// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, and how many came to the same
+/// minimum. None follows one that noise explains, where its level is stated, one that leaves nothing, or two that agree on what
+/// is not far above the noise.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
     is_stated: bool,
 ) -> Result<(Fit, [usize; 2]), SpatialError> {
+    let lines = problem.thinned(LINES_MAX);
     let likely = problem.likely_errors()?;
-    let known = problem.thinned(LINES_MAX).with_errors(&likely)?;
-    let balance = known.balance()?;
-    // on curves along which the functions are nearly straight, and straight on: each finds what the other one misses
-    let thin = problem.thinned(LINES);
-    let ways = [Some(balance.clone()), None].map(|balance| Problem {
-        balance,
-        ..thin.clone()
+    let mut searches = Searches::new(problem, &likely, level, is_stated)?;
+    let beside = searches.beside(&likely)?;
+    let alone = searches.lowest_first(starts(&searches.thin, level)?);
+    let tries = (0..beside.len().max(alone.len())).map(|i| {
+        let of = |way, starts: &[Start]| starts.get(i).map(|start| (way, start.clone()));
+        [
+            of(Way::Curved, &beside),
+            of(Way::Straight, &alone),
+            of(Way::Straight, &beside),
+        ]
     });
-    let lowest_first = |starts: &mut dyn Iterator<Item = Unknowns>| {
-        let known = starts.filter_map(|start| Some((cost(&thin, &start, level).ok()?, start)));
-        let mut sorted: Vec<(f64, Unknowns)> = known.collect();
-        sorted.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        sorted
-    };
-    let beside = lowest_first(&mut starts(&known, level)?.map(|joint| joint.beside(&likely)));
-    let alone = lowest_first(&mut starts(&thin, level)?);
-    let numbers = thin.numbers() as f64;
-    let explained = |fit: &Fit| {
-        let errors = squares_of_errors(&thin, &fit.unknowns);
-        fit.cost < NOTHING * numbers
-            || is_stated
-                && fit.cost < EXPLAINED * numbers
-                && errors < EXPECTED * problem.error_count() as f64
-                && !is_rigid(&thin, &balance, &fit.unknowns)
-    };
-    let mut best: Option<Fit> = None;
-    let (mut tried, mut agreeing) = (0, 0);
-    let [curved, straight] = &ways;
-    let tries = (0..beside.len().max(alone.len())).flat_map(|i| {
-        let ways = [
-            (curved, &beside),
-            (straight, &alone),
-            (straight, &beside),
-            (curved, &alone),
-        ];
-        ways.map(|(way, starts)| starts.get(i).map(|start| (way, start)))
-    });
-    let tries = tries.flatten();
-    for (way, (residual, start)) in tries {
-        tried += 1;
-        let Ok(fit) = let_down(way, start.clone(), *residual, level) else {
-            continue;
+    let mut tries = tries.map(|kinds| kinds.into_iter().flatten());
+    if !searches.follow(tries.by_ref().take(AT_FIRST).flatten()) {
+        // where the joint is wrong, the errors of the set-up need not be
+        let again = match &searches.best {
+            Some(best) => searches.beside(&searches.thin.errors(&best.unknowns))?,
+            None => Vec::new(),
         };
-        let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-        agreeing = match fit.cost {
-            own if own > lowest * (1.0 + AS_LOW) => agreeing,
-            own if own >= lowest * (1.0 - AS_LOW) => agreeing + 1,
-            _ => 1,
-        };
-        if fit.cost < lowest {
-            best = Some(fit);
-        }
-        // two that are far above the noise agree on where a search gets stuck
-        let is_low = |best: &Fit| !is_stated || !lags(&thin, best.cost);
-        if best
-            .as_ref()
-            .is_some_and(|best| explained(best) || agreeing > 1 && is_low(best))
-        {
-            break;
-        }
+        let again = again.into_iter().take(AT_FIRST);
+        let again = again.flat_map(|start| [(Way::Straight, start.clone()), (Way::Curved, start)]);
+        let _ = searches.follow(again)
+            || searches.ends_within_noise()
+            || searches.follow(tries.flatten());
     }
-    let best = best.ok_or(SpatialError::NoStart)?;
     // a minimum that nothing confirms may be another one
-    let is_confirmed = agreeing > 1 || explained(&best);
+    let is_confirmed = searches.is_confirmed();
+    let best = searches.best.ok_or(SpatialError::NoStart)?;
     // what nothing explains has no bottom that is worth the way there
-    let effort = match lags(&thin, best.cost) && !is_confirmed {
+    let effort = match lags(&searches.thin, best.cost) && !is_confirmed {
         true => Effort::Coarse,
         false => Effort::Full,
     };
-    let lines = problem.thinned(LINES_MAX);
     let mut fit = Fit::of(&lines, best.unknowns, level, effort)?;
     fit.has_converged &= is_confirmed;
-    Ok((fit, [tried, agreeing]))
+    Ok((fit, [searches.tried, searches.agreeing]))
+}
+
+/// Along curves on which the functions are nearly straight, or straight on: each finds what the other one misses.
+#[derive(Clone, Copy)]
+enum Way {
+    Curved,
+    Straight,
+}
+
+/// Squares, and the unknowns that they belong to.
+type Start = (f64, Unknowns);
+
+/// What came of the searches so far.
+struct Searches<'p> {
+    problem: &'p Problem,
+    level: &'p Deviations,
+    is_stated: bool,
+    /// The lines of the searches, to be followed straight on …
+    thin: Problem,
+    /// … and along curves.
+    curved: Problem,
+    /// The structures' own stiffnesses.
+    balance: Vec<f64>,
+    best: Option<Fit>,
+    tried: usize,
+    agreeing: usize,
+}
+
+impl<'p> Searches<'p> {
+    fn new(
+        problem: &'p Problem,
+        likely: &[Vec<f64>; 2],
+        level: &'p Deviations,
+        is_stated: bool,
+    ) -> Result<Self, SpatialError> {
+        let balance = problem.thinned(LINES_MAX).with_errors(likely)?.balance()?;
+        let thin = Problem {
+            balance: None,
+            ..problem.thinned(LINES)
+        };
+        Ok(Self {
+            problem,
+            level,
+            is_stated,
+            curved: Problem {
+                balance: Some(balance.clone()),
+                ..thin.clone()
+            },
+            thin,
+            balance,
+            best: None,
+            tried: 0,
+            agreeing: 0,
+        })
+    }
+
+    /// Starts beside these errors of the set-up, of more lines than the searches have.
+    fn beside(&self, errors: &[Vec<f64>; 2]) -> Result<Vec<Start>, SpatialError> {
+        let known = self.problem.thinned(LINES_MAX).with_errors(errors)?;
+        let joints = starts(&known, self.level)?;
+        Ok(self.lowest_first(joints.map(|joint| joint.beside(errors))))
+    }
+
+    fn lowest_first(&self, starts: impl Iterator<Item = Unknowns>) -> Vec<Start> {
+        let known =
+            starts.filter_map(|start| Some((cost(&self.thin, &start, self.level).ok()?, start)));
+        let mut sorted: Vec<Start> = known.collect();
+        sorted.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        sorted
+    }
+
+    /// Follows one after the other until there is no need of more; says whether that is so.
+    fn follow(&mut self, tries: impl Iterator<Item = (Way, Start)>) -> bool {
+        for (way, (residual, start)) in tries {
+            self.tried += 1;
+            let problem = match way {
+                Way::Curved => &self.curved,
+                Way::Straight => &self.thin,
+            };
+            let Ok(fit) = let_down(problem, start, residual, self.level) else {
+                continue;
+            };
+            let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
+            self.agreeing = match fit.cost {
+                own if own > lowest * (1.0 + AS_LOW) => self.agreeing,
+                own if own >= lowest * (1.0 - AS_LOW) => self.agreeing + 1,
+                _ => 1,
+            };
+            if fit.cost < lowest {
+                self.best = Some(fit);
+            }
+            // two that are far above the noise agree on where a search gets stuck
+            let is_low = |best: &Fit| !self.is_stated || !lags(&self.thin, best.cost);
+            let is_enough = |best: &Fit| self.explains(best) || self.agreeing > 1 && is_low(best);
+            if self.best.as_ref().is_some_and(is_enough) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether noise and budget explain what is left, and no motion of the joint got lost on the way.
+    fn explains(&self, fit: &Fit) -> bool {
+        fit.cost < NOTHING * self.thin.numbers() as f64
+            || self.is_within_noise(fit) && !is_rigid(&self.thin, &self.balance, &fit.unknowns)
+    }
+
+    fn is_within_noise(&self, fit: &Fit) -> bool {
+        let errors = squares_of_errors(&self.thin, &fit.unknowns);
+        self.is_stated
+            && fit.cost < EXPLAINED * self.thin.numbers() as f64
+            && errors < EXPECTED * self.problem.error_count() as f64
+    }
+
+    /// Whether noise explains the lowest one, though a motion of the joint be rigid: that may be all that the functions say.
+    fn ends_within_noise(&self) -> bool {
+        let best = self.best.as_ref();
+        best.is_some_and(|best| self.is_within_noise(best))
+    }
+
+    fn is_confirmed(&self) -> bool {
+        self.agreeing > 1 || self.best.as_ref().is_some_and(|best| self.explains(best))
+    }
 }
 
 /// Whether squares are many more than noise leaves.

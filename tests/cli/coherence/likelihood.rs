@@ -60,7 +60,7 @@ pub(super) fn fit(functions: &[Measured]) -> Fit {
     }
 }
 
-/// Re Jᴴ Σ⁻¹ J and Re Jᴴ Σ⁻¹ r by unknowns in units of `size`, and χ² = 2 Σ |r|²/σ² with σ² = v |H|².
+/// Re Jᴴ Σ⁻¹ J and Re Jᴴ Σ⁻¹ r by unknowns in units of `size`, and χ² = 2 Σ |r|²/σ².
 fn sums(
     functions: &[Measured],
     unknowns: &Vector6<f64>,
@@ -84,7 +84,7 @@ fn sums(
                 receptance(motion, function.response, function.reference)
             };
             let value = of(&whole);
-            let weight = 1.0 / (function.variance[line] * value.norm_sqr());
+            let weight = 1.0 / function.variance[line];
             let slope = moved
                 .each_ref()
                 .map(|[up, down]| (of(up) - of(down)) / (2.0 * STEP));

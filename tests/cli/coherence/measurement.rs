@@ -36,12 +36,13 @@ pub(super) struct Measured {
     pub(super) reference: Point,
     pub(super) values: Vec<Complex64>,
     gamma_squared: Vec<f64>,
-    /// σ²/|H|² of each line.
+    /// σ² of each line, (m/N)².
     pub(super) variance: Vec<f64>,
 }
 
 impl Measured {
-    /// `exact` values with noise of the variance that `gamma_squared` means.
+    /// `exact` values with noise of the variance that `gamma_squared` means, and the coherence that an analyser tells beside
+    /// them: that of the values with their errors.
     pub(super) fn new(
         (response, reference): (Point, Point),
         exact: impl Fn(f64) -> Complex64,
@@ -50,28 +51,27 @@ impl Measured {
     ) -> Self {
         // As the files state it.
         let rounded = |value: f64| format!("{value:.12e}").parse::<f64>().unwrap();
-        let gamma_squared: Vec<f64> = (0..LINES)
-            .map(|line| rounded(gamma_squared(line)))
-            .collect();
-        // σ²/|H|² = (1 − γ²)/(n γ²)
-        let variance: Vec<f64> = gamma_squared
-            .iter()
-            .map(|gamma| (1.0 - gamma) / (AVERAGES * gamma))
-            .collect();
-        let values = (0..LINES)
-            .map(|line| {
-                let part = variance[line].sqrt() * FRAC_1_SQRT_2;
-                let mut normal = || -> f64 { StandardNormal.sample(generator) };
-                let error = Complex64::new(part * normal(), part * normal());
-                let value = exact(OMEGAS[line]) * (1.0 + error);
-                Complex64::new(rounded(value.re), rounded(value.im))
-            })
-            .collect();
+        let (mut values, mut told, mut variance) = (Vec::new(), Vec::new(), Vec::new());
+        for line in 0..LINES {
+            let (exact, gamma) = (exact(OMEGAS[line]), gamma_squared(line));
+            // σ²/|H|² = (1 − γ²)/(n γ²)
+            let own = exact.norm_sqr() * (1.0 - gamma) / (AVERAGES * gamma);
+            let part = own.sqrt() * FRAC_1_SQRT_2;
+            let mut normal = || -> f64 { StandardNormal.sample(generator) };
+            let value = exact + Complex64::new(part * normal(), part * normal());
+            let value = Complex64::new(rounded(value.re), rounded(value.im));
+            // γ²/(1 − γ²) = |Ĥ|²/(n σ²)
+            told.push(rounded(
+                value.norm_sqr() / (value.norm_sqr() + AVERAGES * own),
+            ));
+            values.push(value);
+            variance.push(own);
+        }
         Self {
             response,
             reference,
             values,
-            gamma_squared,
+            gamma_squared: told,
             variance,
         }
     }

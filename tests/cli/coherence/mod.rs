@@ -1,5 +1,5 @@
 //! Coherence and averages, from a file to the joint: estimate, deviations and χ² are those of a likelihood with
-//! σ²/|H|² = (1 − γ²)/(n γ²), computed without the program.
+//! σ² = |Ĥ|²(1 − γ²)/(n γ²), computed without the program.
 
 mod likelihood;
 mod measurement;

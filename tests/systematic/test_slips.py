@@ -45,18 +45,22 @@ SLIPS = {
 }
 
 
-def identified(program, folder, sets):
+def identified(program, folder, sets, is_stated=True):
     study = rig.write(folder, sets, 0.01)
+    if not is_stated:
+        text = study.read_text(encoding="utf-8")
+        study.write_text(text[: text.index("[noise]")], encoding="utf-8")
     done = subprocess.run(
         [program, "identify", study, "-o", folder / "joint.json", "--json"], capture_output=True, text=True, encoding="utf-8"
     )
     return done, json.loads(done.stdout)
 
 
+@pytest.mark.parametrize("is_stated", [True, False], ids=["noise stated", "noise not stated"])
 @pytest.mark.parametrize("name", SLIPS)
-def test_a_slip_is_named_and_the_joint_is_refused(program, tmp_path, name):
+def test_a_slip_is_named_and_the_joint_is_refused(program, tmp_path, name, is_stated):
     change, words = SLIPS[name]
-    done, found = identified(program, tmp_path, change(rig.test_data(rig.Mistakes(), 0.01, seed=3)))
+    done, found = identified(program, tmp_path, change(rig.test_data(rig.Mistakes(), 0.01, seed=3)), is_stated)
     reasons = " ".join(found["reasons_against"])
     for wanted in words:
         assert wanted in reasons

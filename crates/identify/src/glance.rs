@@ -9,7 +9,7 @@ use super::noise::Noise;
 use super::robust::robust;
 
 /// Starts of the grid that are tried where few others are.
-const FEW_OF_GRID: usize = 8;
+const FEW_OF_GRID: usize = 16;
 
 /// Where a quick look begins.
 #[derive(Clone, Copy)]

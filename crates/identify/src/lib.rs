@@ -62,6 +62,7 @@ mod scoring;
 mod search;
 mod seen;
 mod sensitivity;
+mod shown;
 mod slips;
 mod standing;
 mod starts;

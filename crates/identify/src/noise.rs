@@ -42,6 +42,15 @@ impl StatedFloor {
             _ => self.ytheta,
         }
     }
+
+    /// With those of another one where there are none.
+    fn or(self, other: Self) -> Self {
+        Self {
+            yy: self.yy.or(other.yy),
+            ytheta: self.ytheta.or(other.ytheta),
+            thetatheta: self.thetatheta.or(other.thetatheta),
+        }
+    }
 }
 
 /// A level of which parts may not be known.
@@ -63,6 +72,14 @@ impl StatedLevel {
             thetatheta: Some(0.0),
         },
     };
+
+    /// With those parts of another one that it does not state.
+    pub(super) fn or(self, other: Self) -> Self {
+        Self {
+            relative: self.relative.or(other.relative),
+            floor: self.floor.or(other.floor),
+        }
+    }
 
     /// Whether both parts are stated, as of functions between translations.
     pub(super) fn is_stated(&self) -> bool {

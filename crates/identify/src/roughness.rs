@@ -47,6 +47,9 @@ const LEAST_NOISE: f64 = 1e-4;
 /// No floor is taken for less than this part of the function's median.
 const LEAST_FLOOR: f64 = 1e-12;
 
+/// Part of a value that its noise has where the lines are too few to show it.
+const USUAL_NOISE: f64 = 0.05;
+
 /// What a function says of its noise.
 #[derive(Clone, Debug)]
 pub(super) struct Roughness {
@@ -61,6 +64,12 @@ pub(super) struct Roughness {
 }
 
 impl Roughness {
+    /// Noise as a part of the function, and its floor in the function's unit; what is usual where too few lines show nothing.
+    pub(super) fn level(&self) -> [f64; 2] {
+        self.relative
+            .map_or([USUAL_NOISE, 0.0], |relative| [relative, self.floor])
+    }
+
     /// Of a function over ascending frequencies; `known` variances are fractions of |H|², as from coherence.
     pub(super) fn of(frequency_hz: &[f64], values: &[Complex64], known: Option<&[f64]>) -> Self {
         let mut sizes: Vec<f64> = values.iter().map(|value| value.norm()).collect();

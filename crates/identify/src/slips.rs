@@ -106,10 +106,19 @@ pub(super) fn found(
     noise: &Noise,
     estimate: &[f64],
 ) -> Vec<FoundSlip> {
-    // Measured substructures whose noise may be anything would explain anything.
-    if !noise.is_stated() && (lines.a.measured().is_some() || lines.b.measured().is_some()) {
-        return Vec::new();
-    }
+    let shown;
+    let noise = match noise.is_stated()
+        || [&lines.a, &lines.b]
+            .iter()
+            .all(|of| of.measured().is_none())
+    {
+        true => noise,
+        // measured substructures whose noise may be anything would explain anything
+        false => {
+            shown = noise.or_as_shown(lines);
+            &shown
+        }
+    };
     let start = DVector::from_column_slice(estimate);
     let left = |lines: &Lines, beginning: Beginning<'_>| {
         let data = Data::of(vec![(lines, 0)], noise)?;
@@ -130,18 +139,19 @@ pub(super) fn found(
         ranked
     };
     let mut ranked = ranked_from(&possible(lines, layout), Beginning::At(&start));
-    // A slip can leave no start that leads to the joint.
-    let promising: Vec<Slip> = ranked
+    // A slip can leave no start that leads to the joint. A reversed sign of all functions leaves none at all.
+    let (first, others) = ranked.split_at(PROMISING.min(ranked.len()));
+    let signs = others
         .iter()
-        .take(PROMISING)
-        .map(|(slip, _)| *slip)
-        .collect();
+        .filter(|(slip, _)| matches!(slip, Slip::Factor(_, -1.0)));
+    let promising: Vec<Slip> = first.iter().chain(signs).map(|(slip, _)| *slip).collect();
     for (slip, left) in ranked_from(&promising, Beginning::Grid) {
         for known in ranked.iter_mut().filter(|(other, _)| *other == slip) {
             known.1 = known.1.min(left);
         }
     }
     ranked.sort_by(|(_, one), (_, other)| one.total_cmp(other));
+    for r in &ranked {}
     let relative = noise.assembly.relative.filter(|relative| *relative > 0.0);
     let believable = BELIEVABLE / relative.unwrap_or(1.0).powi(2) / as_it_is;
     let most = MOST_LEFT.min(believable);

@@ -22,8 +22,6 @@ const ENOUGH_LINES: usize = 3;
 const ASKED: usize = 200;
 /// Standard deviations that noise and gains do not make.
 const CERTAIN: f64 = 4.0;
-/// Part of a value that its noise has where the lines are too few to show it.
-const USUAL_NOISE: f64 = 0.05;
 /// Numbers have rounding, at least.
 const ROUNDING: f64 = 1e-9;
 
@@ -230,12 +228,13 @@ fn variances(
     rough: &Roughness,
     noise: &Noise,
 ) -> Vec<f64> {
+    let [relative, own] = rough.level();
     let shown = Size {
-        relative: rough.relative.unwrap_or(USUAL_NOISE),
-        floor: if rough.relative.is_some() { 1.0 } else { 0.0 },
+        relative,
+        floor: 1.0,
     };
     let size = noise.levels(shown).of(of);
-    let floor = noise.floor(of, rotations, || rough.floor);
+    let floor = noise.floor(of, rotations, || own);
     let lines = values.iter().enumerate();
     lines
         .map(|(line, value)| match known {

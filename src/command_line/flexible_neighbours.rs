@@ -9,6 +9,7 @@ use bolted_joint::assembly::{AssemblyModel, ModalForm};
 use bolted_joint::cosimulation::{Flexible, LoadOfStep, StepBound};
 use bolted_joint::frf::Dof;
 use bolted_joint::joint::JointFile;
+use bolted_joint_dynamics::DofKind;
 
 use super::communication_step::{CommunicationStep, advice, seconds, told};
 use super::error::CliError;
@@ -79,6 +80,9 @@ pub(super) fn of_neighbours(
             true => form.points.clone(),
             false => own.points.clone(),
         };
+        if let Some(joint) = joints.first() {
+            ensure_fitting(own, &points, joint)?;
+        }
         *side = Some((form, points));
     }
     let sides = sides.each_ref().map(|side| {
@@ -90,6 +94,39 @@ pub(super) fn of_neighbours(
         all.extend(Flexible::between(&file.joint, sides, amplitude).map_err(CliError::Coupling)?);
     }
     Ok(told_of(&all, suggested_s))
+}
+
+/// Refuses points that cannot be what a joint's degrees of freedom take hold of.
+fn ensure_fitting(own: &Neighbour, points: &[Dof], joint: &JointFile) -> Result<(), CliError> {
+    let side = if own.is_b { "b" } else { "a" };
+    let refuse = |found: String, expected: &'static str| {
+        let found = format!("{found} at side {side}");
+        Err(CliError::option("--neighbour", found, expected))
+    };
+    let dofs = joint.joint.dofs;
+    if points.len() != dofs.rows().count() {
+        let names: Vec<&str> = dofs.rows().map(|dof| dof.name).collect();
+        return refuse(
+            format!("{} points for {}", points.len(), names.join(", ")),
+            "a point for each degree of freedom of the joint",
+        );
+    }
+    for (place, (point, dof)) in points.iter().zip(dofs.rows()).enumerate() {
+        let is_rotation = dof.kind == DofKind::Rotation;
+        if point.direction().is_rotation() != is_rotation {
+            return refuse(
+                format!("{point} for {}", dof.name),
+                "a translation for a translation and a rotation for a rotation, in the order of the joint's degrees of freedom",
+            );
+        }
+        if points[..place].contains(point) {
+            return refuse(
+                format!("{point} twice"),
+                "a point for each degree of freedom of the joint",
+            );
+        }
+    }
+    Ok(())
 }
 
 /// The bounds of a whole assembly, if its structures and joints are taken apart.

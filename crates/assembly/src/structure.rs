@@ -59,15 +59,9 @@ pub(crate) fn structure(
         (Some(path), None, None) => {
             points_beside("a file of matrices")?;
             let matrices = NamedMatrices::read(&study.resolved(&path)).map_err(failed)?;
-            (
-                cut(
-                    study,
-                    &key,
-                    of_matrices(study, &key, &matrices, failed)?,
-                    kept,
-                )?,
-                Vec::new(),
-            )
+            let all = of_matrices(study, &key, &matrices, failed)?;
+            let told = undamped(&key, &all, "the file has no array C, or a C of zeros");
+            (cut(study, &key, all, kept)?, told)
         }
         (None, Some(path), None) => {
             points_beside("a file of modes")?;
@@ -77,16 +71,16 @@ pub(crate) fn structure(
         (None, None, Some(beam)) => {
             let beam = computed(study, &key, beam)?;
             let points: Vec<(Dof, f64)> = table.points.into_iter().collect();
+            ensure_in_a_plane(study, &key, &points)?;
             study.ensure(
                 !points.is_empty(),
                 format_args!("{key}.points"),
                 "nothing",
                 "the positions of its points along the beam in m, such as { \"1:+Y\" = 0.0, \"1:+RZ\" = 0.0 }",
             )?;
-            (
-                cut(study, &key, of_beam(&beam, &points).map_err(failed)?, kept)?,
-                Vec::new(),
-            )
+            let all = of_beam(&beam, &points).map_err(failed)?;
+            let told = undamped(&key, &all, "beam.damping_ratio is not stated, or 0");
+            (cut(study, &key, all, kept)?, told)
         }
         _ => {
             return Err(study
@@ -99,6 +93,41 @@ pub(crate) fn structure(
         }
     };
     Ok(form)
+}
+
+/// A word where nothing damps a structure, and why.
+fn undamped(key: &str, all: &AllModes, why: &str) -> Vec<String> {
+    match all.damping_per_s.iter().all(|own| *own == 0.0) {
+        true => vec![format!("{key} is undamped: {why}")],
+        false => Vec::new(),
+    }
+}
+
+/// A beam bends in one plane: all deflections are along one axis, all slopes about another one, and a node is in one place.
+fn ensure_in_a_plane(
+    study: &StudyText,
+    key: &str,
+    points: &[(Dof, f64)],
+) -> Result<(), StudyError> {
+    for (place, &(point, position_m)) in points.iter().enumerate() {
+        let key = format!("{key}.points.{point}");
+        for &(other, other_m) in &points[..place] {
+            let (one, two) = (point.direction(), other.direction());
+            study.ensure(
+                one.is_rotation() != two.is_rotation() || one == two,
+                &key,
+                format_args!("{one} beside {other}"),
+                "one direction of all deflections and one of all slopes: a beam bends in one plane",
+            )?;
+            study.ensure(
+                point.node() != other.node() || position_m == other_m,
+                &key,
+                format_args!("{position_m} m, and {other_m} m for {other}"),
+                "one place for a node",
+            )?;
+        }
+    }
+    Ok(())
 }
 
 /// The structure with so many modes, which have to be enough for its free motions.
@@ -264,6 +293,13 @@ fn of_modes(
     if upper.is_none() && model.residual(0, 0).is_some() {
         warnings.push(format!(
             "{key}: residuals are there for some pairs of points and not for all; they are left out, so that the joints see the structure too stiff"
+        ));
+    }
+    if upper.is_none() && model.residual(0, 0).is_none() {
+        warnings.push(format!(
+            "{key}: the modes end at {:.4} Hz and have no residuals: joints and loads see the structure too stiff, the more so the nearer \
+             a frequency is to that",
+            highest / std::f64::consts::TAU
         ));
     }
     // −LA/ω² is that of a free body: φφᵀ = LA

@@ -151,7 +151,6 @@ pub(super) fn found(
         }
     }
     ranked.sort_by(|(_, one), (_, other)| one.total_cmp(other));
-    for r in &ranked {}
     let relative = noise.assembly.relative.filter(|relative| *relative > 0.0);
     let believable = BELIEVABLE / relative.unwrap_or(1.0).powi(2) / as_it_is;
     let most = MOST_LEFT.min(believable);

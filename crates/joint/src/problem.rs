@@ -260,7 +260,7 @@ pub enum JointProblem {
         /// The joint's, N·m.
         expected: f64,
     },
-    /// A frequency band that is empty.
+    /// A frequency band that ends before it begins.
     #[error(
         "validity.frequency_hz: found {from_hz:?} to {to_hz:?} Hz, expected the lower frequency first"
     )]

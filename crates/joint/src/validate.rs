@@ -515,7 +515,7 @@ impl Check {
         self.finite_list("validity.frequency_hz", frequency_hz);
         self.not_negative("validity.frequency_hz", frequency_hz, "a frequency");
         let [from_hz, to_hz] = *frequency_hz;
-        if from_hz >= to_hz {
+        if from_hz > to_hz {
             self.problems.push(JointProblem::Band { from_hz, to_hz });
         }
     }

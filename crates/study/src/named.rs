@@ -24,6 +24,9 @@ pub const PATH_KEYS: [&str; 11] = [
     "repeats",
 ];
 
+/// Tables of an assembly file whose keys are names, and whose texts are points.
+const CHANNELS: [&str; 2] = ["inputs", "outputs"];
+
 /// A file that a study names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
@@ -49,6 +52,10 @@ impl StudyText {
         match value {
             Value::Table(table) => {
                 for (own, value) in table {
+                    // names of loads and motions are the user's own
+                    if key.is_empty() && CHANNELS.contains(&own.as_str()) {
+                        continue;
+                    }
                     let key = match key {
                         "" => own.clone(),
                         key => format!("{key}.{own}"),

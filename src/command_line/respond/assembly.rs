@@ -133,6 +133,12 @@ fn told(model: &AssemblyModel, answer: &AssemblyAnswer) -> String {
 
 /// Says of joints that are not to be relied on that they are not.
 fn judged(model: &AssemblyModel) -> Result<(), CliError> {
-    let mut joints = model.joints.iter();
-    joints.try_for_each(|joint| CliError::unless_usable(&joint.path, joint.file.reasons_against()))
+    model.joints.iter().try_for_each(|joint| {
+        let passivity = joint.file.passivity();
+        let active = passivity.active().map(|matrix| {
+            format!("{matrix}: the joint can feed energy, and what is computed with it may grow without bounds")
+        });
+        let stated = joint.file.reasons_against().iter().cloned();
+        CliError::unless_usable(&joint.path, &stated.chain(active).collect::<Vec<_>>())
+    })
 }

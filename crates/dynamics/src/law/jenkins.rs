@@ -45,9 +45,11 @@ enum Bearing<N> {
 impl<N: Number> Jenkins<N> {
     /// Return mapping from the slider's committed place x to the displacement r.
     fn bearing<M: Number + Into<N>>(&self, memory: &[M], r: N) -> Bearing<N> {
-        // e* = r − x; it sticks if |k e*| ≤ h
+        // e* = r − x; it sticks if |k e*| ≤ h, and never where h = 0
         let elongation = r - slider(memory);
-        if (self.stiffness.value() * elongation.value()).abs() <= self.slip_force.value() {
+        let slip_force = self.slip_force.value();
+        let force = (self.stiffness.value() * elongation.value()).abs();
+        if slip_force > 0.0 && force <= slip_force {
             Bearing::Sticks(elongation)
         } else {
             Bearing::Slips(elongation.value().signum())

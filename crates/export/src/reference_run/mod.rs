@@ -47,6 +47,38 @@ struct Table {
     rows: Rows,
 }
 
+/// Part of the largest energy of a run below which another one is what rounding leaves of none.
+const ROUNDING_OF_ENERGY: f64 = 1e-13;
+
+impl Table {
+    /// Which energies are rounding: a run is no reference for these.
+    fn of_rounding(&self) -> Vec<usize> {
+        let largest = |column: usize| {
+            let values = self.rows.iter().map(|(_, row)| row[column].abs());
+            values.fold(0.0, f64::max)
+        };
+        let names = self.names.iter().enumerate();
+        let energies = names.filter(|(_, name)| name.starts_with("energy."));
+        let energies: Vec<(usize, f64)> = energies.map(|(i, _)| (i, largest(i))).collect();
+        let most = energies
+            .iter()
+            .fold(0.0, |most: f64, (_, own)| most.max(*own));
+        let is_rounding = |own: f64| own > 0.0 && own < ROUNDING_OF_ENERGY * most;
+        let noise = energies.into_iter().filter(|(_, own)| is_rounding(*own));
+        noise.map(|(column, _)| column).collect()
+    }
+
+    fn leave_out(&mut self, columns: &[usize]) {
+        // from the last one, so that the others keep their places
+        for &column in columns.iter().rev() {
+            self.names.remove(column);
+            for (_, row) in &mut self.rows {
+                row.remove(column);
+            }
+        }
+    }
+}
+
 impl ReferenceRun {
     /// Of the joint in `file`, over the preload of `over_preload` where that is given; `None` if its outputs do not stay finite.
     pub(super) fn new(

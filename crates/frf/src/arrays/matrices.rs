@@ -39,8 +39,8 @@ type Found = (Vec<Option<Dof>>, [DMatrix<f64>; 3]);
 
 fn matrices_of<F: ArrayFile>(file: &mut F) -> Result<Found, TableProblem> {
     let mut members = Members(file);
-    let mass = members.required_of_matrices(MASS, "M, the mass matrix")?;
-    let stiffness = members.required_of_matrices(STIFFNESS, "K, the stiffness matrix")?;
+    let mass_name = members.required_of_matrices(MASS, "M, the mass matrix")?;
+    let stiffness_name = members.required_of_matrices(STIFFNESS, "K, the stiffness matrix")?;
     let named = members.required_of_matrices(
         POINTS,
         "points, a name such as \"2:+Y\" for each coordinate, \"\" for those without",
@@ -54,13 +54,36 @@ fn matrices_of<F: ArrayFile>(file: &mut F) -> Result<Found, TableProblem> {
             format_args!("1 to {MOST_COORDINATES}; reduce the model (Craig–Bampton, modes) first"),
         ));
     }
-    let mass = symmetric(&mut members, &mass, size)?;
-    let stiffness = symmetric(&mut members, &stiffness, size)?;
+    let mass = symmetric(&mut members, &mass_name, size)?;
+    let stiffness = symmetric(&mut members, &stiffness_name, size)?;
     let damping = match members.find(DAMPING)? {
-        None => DMatrix::zeros(size, size),
+        None => {
+            refuse_another(&mut members, [&mass_name, &stiffness_name], size)?;
+            DMatrix::zeros(size, size)
+        }
         Some(name) => symmetric(&mut members, &name, size)?,
     };
     Ok((points, [mass, damping, stiffness]))
+}
+
+/// Refuses a file without C that has a matrix of its size under another name: that would be left out without a word.
+fn refuse_another<F: ArrayFile>(
+    members: &mut Members<'_, F>,
+    known: [&String; 2],
+    size: usize,
+) -> Result<(), TableProblem> {
+    for name in members.0.names().to_vec() {
+        // what cannot be read is no matrix
+        let is_matrix = |array: F::Array<'_>| size > 1 && array.shape() == [size, size];
+        if !known.contains(&&name) && members.0.array(&name).is_ok_and(is_matrix) {
+            return Err(TableProblem::at(
+                format_args!("array {name}"),
+                format_args!("a matrix of {size} × {size}, and no array C"),
+                "C for damping, and nothing else of that size: rename it, or leave it out",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// A real symmetric matrix of this size.

@@ -4,12 +4,14 @@ use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::law::Term;
 use nalgebra::DVector;
+use num_complex::Complex64;
 
-use super::data::Use;
+use super::data::{SineRun, Use};
 use super::decay::InTime;
 use super::model::{ResponseUnknown, Values};
 use super::prediction::Expected;
 use super::result::{Estimate, LapResponse};
+use super::slider::SliderParameter;
 use super::study::{LapResponseStudy, NoiseIs};
 use super::warnings::NO_CURE;
 use bolted_joint_joint::{
@@ -31,16 +33,7 @@ impl LapResponse {
             vec![vec![values.spring().max(0.0)]],
             vec![vec![values.joint_damping]],
         );
-        let friction = values.slider.and_then(|slider| {
-            let (name, parameters) = slider.in_file();
-            let law = Friction::laws().find(|law| law.name == name)?;
-            let dof = DofSet::TRANSLATION.row(0);
-            Some(Friction {
-                dof,
-                law,
-                parameters,
-            })
-        });
+        let friction = self.friction(|own| own);
         let body = Body {
             inertia: vec![values.mass],
             stiffness: vec![values.support_stiffness.max(0.0)],
@@ -137,7 +130,7 @@ impl LapResponse {
             standard_deviation: StandardDeviation {
                 stiffness: vec![vec![deviation_of_stiffness]],
                 damping: entry(ResponseUnknown::JointDamping),
-                ..StandardDeviation::default()
+                friction: self.friction_deviations(),
             },
             basis: format!(
                 "information matrix of the maximum-likelihood estimate with {noise}{raised}{of_decays}{no_cure}; {}",
@@ -171,6 +164,41 @@ impl LapResponse {
                 price: Some(self.price),
             }),
             ..Uncertainty::default()
+        })
+    }
+
+    /// Deviations of the numbers of the law that slips, in place of these; 0 of those that the data do not tell.
+    fn friction_deviations(&self) -> Vec<Friction> {
+        let Some(slider) = self.fit.values.slider else {
+            return Vec::new();
+        };
+        let deviation = |parameter: SliderParameter| match slider.index(parameter) {
+            Some(_) => self.deviation(ResponseUnknown::Slider(parameter)),
+            None if parameter == SliderParameter::Stiffness => {
+                let by = slider.stiffness_by_parameters();
+                let of = |unknown: ResponseUnknown| match unknown {
+                    ResponseUnknown::Slider(own) => slider.index(own).map_or(0.0, |i| by[i]),
+                    _ => 0.0,
+                };
+                let by = self.estimates.iter().map(|own| of(own.unknown));
+                let by = DVector::from_iterator(self.estimates.len(), by);
+                by.dot(&(&self.covariance * &by)).max(0.0).sqrt()
+            }
+            None => 0.0,
+        };
+        let parameters = slider.slider.in_file();
+        let deviations = parameters.iter().map(|&own| deviation(own)).collect();
+        self.friction(|_| deviations).into_iter().collect()
+    }
+
+    /// The law that slips as files have it, with numbers that stand in the place of its own.
+    fn friction(&self, numbers: impl FnOnce(Vec<f64>) -> Vec<f64>) -> Option<Friction> {
+        let (name, parameters) = self.fit.values.slider?.in_file();
+        let law = Friction::laws().find(|law| law.name == name)?;
+        Some(Friction {
+            dof: DofSet::TRANSLATION.row(0),
+            law,
+            parameters: numbers(parameters),
         })
     }
 
@@ -259,28 +287,57 @@ impl LapResponse {
     /// Name, lines and relative residual of the receptance at the fitted amplitudes, of each run in the estimate.
     #[must_use]
     pub fn run_residuals(&self, study: &LapResponseStudy) -> Vec<(String, usize, f64)> {
-        let mut amplitudes = self.fit.amplitudes_m.iter();
         let runs = study.sines.iter().filter(|run| run.used_for == Use::Fit);
-        let residuals = runs.map(|run| {
-            let squares: f64 = run
-                .lines
-                .iter()
-                .zip(amplitudes.by_ref())
-                .map(|(line, &amplitude)| {
-                    let (computed, _) =
-                        self.model
-                            .receptance(&self.fit.values, amplitude, line.omega);
-                    let measured = num_complex::Complex64::from_polar(
-                        line.displacement_m / line.force_n,
-                        line.phase_rad,
-                    );
-                    ((measured - computed) / computed).norm_sqr()
-                })
-                .sum();
-            let count = run.lines.len();
+        let residuals = runs.zip(self.receptance_residuals(study));
+        let rms = residuals.map(|(run, residuals)| {
+            let squares: f64 = residuals.iter().map(|own| own.norm_sqr()).sum();
+            let count = residuals.len();
             (run.name.clone(), count, (squares / count as f64).sqrt())
         });
-        residuals.collect()
+        rms.collect()
+    }
+
+    /// (measured − computed)/computed of the receptance at the fitted amplitudes, line by line of each sine in the estimate.
+    fn receptance_residuals(&self, study: &LapResponseStudy) -> Vec<Vec<Complex64>> {
+        let mut amplitudes = self.fit.amplitudes_m.iter();
+        let runs = study.sines.iter().filter(|run| run.used_for == Use::Fit);
+        let of_run = |run: &SineRun| {
+            let lines = run.lines.iter().zip(amplitudes.by_ref());
+            let residuals = lines.map(|(line, &amplitude)| {
+                let values = &self.fit.values;
+                let (computed, _) = self.model.receptance(values, amplitude, line.omega);
+                let size = line.displacement_m / line.force_n;
+                (Complex64::from_polar(size, line.phase_rad) - computed) / computed
+            });
+            residuals.collect()
+        };
+        runs.map(of_run).collect()
+    }
+
+    /// Residuals of what is fitted point by point, in the order of the points: receptances of each sine, frequencies of each
+    /// backbone that is no decay, its damping ratios.
+    pub(super) fn residuals_by_run(&self, study: &LapResponseStudy) -> Vec<Vec<Complex64>> {
+        let mut all = self.receptance_residuals(study);
+        let is_decay = |name: &str| {
+            let mut runs = study.backbones.iter();
+            runs.any(|run| run.name == name && run.recorded.is_some())
+        };
+        let runs = self.backbones.iter();
+        for run in runs.filter(|run| !run.left_out && !is_decay(&run.run)) {
+            let relative = |own: &Expected| Complex64::from(own.measured / own.predicted - 1.0);
+            all.push(
+                run.points
+                    .iter()
+                    .map(|point| relative(&point.frequency_hz))
+                    .collect(),
+            );
+            let ratios = run
+                .points
+                .iter()
+                .filter_map(|point| point.damping_ratio.as_ref());
+            all.push(ratios.map(relative).collect());
+        }
+        all
     }
 
     fn validity(&self, study: &LapResponseStudy) -> Validity {

@@ -70,6 +70,15 @@ impl Slider {
             Self::Iwan => &[SlipForce, Stiffness, Exponent, Ratio],
         }
     }
+
+    /// The parameters that its law has in a file, in their order there.
+    pub(super) fn in_file(self) -> &'static [SliderParameter] {
+        match self {
+            Self::Jenkins => self.parameters(),
+            // micro-slip is Iwan's law before anything slips through
+            Self::MicroSlip | Self::Iwan => Self::Iwan.parameters(),
+        }
+    }
 }
 
 impl SliderParameter {

@@ -1,5 +1,9 @@
 //! What the reader of a lap model identified from responses should know before using it.
 
+use num_complex::Complex64;
+
+use super::data::Use;
+use super::decay::{InTime, NotInTime};
 use super::prediction::BackbonePrediction;
 use super::result::LapResponse;
 use super::study::{LapResponseStudy, NoiseIs};
@@ -19,6 +23,12 @@ const FREQUENCY_HZ: f64 = 0.1;
 const AMPLITUDE: f64 = 0.1;
 /// Part of the numbers of a run left out that may lie outside of intervals of 95 %: those of neighbouring points go together.
 const OUTSIDE: f64 = 0.25;
+/// Part of a record's largest value below which the motion that is read of it is not that of its beginning.
+const BEGINNING: f64 = 0.5;
+/// Correlation of neighbouring residuals that is a pattern, and how many of its deviations it is by then.
+const PATTERN: f64 = 0.3;
+const CERTAIN: f64 = 5.0;
+const FEWEST_PAIRS: usize = 20;
 /// What wider intervals do not do.
 pub(super) const NO_CURE: &str = "wider intervals are no cure for a wrong law: they hold only if the residual is noise; look at \
                                   what the model leaves out";
@@ -37,6 +47,11 @@ impl LapResponse {
         }
         warnings.extend(self.of_price());
         warnings.extend(self.of_residual(study));
+        warnings.extend(self.of_pattern(study));
+        warnings.extend(self.of_lost_motion());
+        if let InTime::Read(_) = self.in_time {
+            warnings.extend(of_beginnings(study));
+        }
         let is_of_one = self.fit.values.slider.is_none();
         if is_of_one && self.model.harmonics < study.harmonics && !study.sines.is_empty() {
             warnings.push(format!(
@@ -95,6 +110,34 @@ impl LapResponse {
             }
         }
         warnings
+    }
+
+    /// That neighbouring points of sines and backbones err alike, as noise does not.
+    fn of_pattern(&self, study: &LapResponseStudy) -> Option<String> {
+        // records of decays have a test of their own
+        if study.noise_is() == NoiseIs::OfRecords {
+            return None;
+        }
+        let residuals = self.residuals_by_run(study);
+        let (correlation, deviation) = neighbours(&residuals)?;
+        (correlation > PATTERN.max(CERTAIN * deviation)).then(|| {
+            format!(
+                "what the law leaves is not noise: the residuals of neighbouring points are correlated ({correlation:.2}); the law, or \
+                 something that the study states as known (a mass, a phase, a delay, other modes), is not that of the data, and the \
+                 intervals do not hold it"
+            )
+        })
+    }
+
+    /// That the law's own motion does not follow the records that it is said to be of.
+    fn of_lost_motion(&self) -> Option<String> {
+        (self.in_time == InTime::Read(NotInTime::Lost)).then(|| {
+            format!(
+                "no motion of the law \"{}\" follows the records, though what was read of them fits: the law is not that of the joint, or \
+                 the records have more in them than one mode",
+                self.model.terms
+            )
+        })
     }
 
     /// Which amplitudes of a run lie beyond those that were fitted.
@@ -189,5 +232,61 @@ impl LapResponse {
             )),
             _ => None,
         }
+    }
+}
+
+/// Records whose beginning is not read: a window as long as a narrow band asks for is over before a quick decay is.
+fn of_beginnings(study: &LapResponseStudy) -> Vec<String> {
+    let fitted = study.backbones.iter();
+    let fitted = fitted.filter(|run| run.used_for == Use::Fit);
+    let parts = fitted.filter_map(|run| Some((run, run.recorded.as_ref()?.read_part)));
+    let late = parts.filter(|(_, part)| *part < BEGINNING);
+    late.map(|(run, part)| {
+        let largest_m = run.lines.iter().map(|line| line.amplitude_m);
+        format!(
+            "{}: the largest amplitude that is read, {:.2e} m, is {:.0} % of what the record begins with: nothing is known of larger ones, \
+             and what slips only there is not told; {}",
+            run.name,
+            largest_m.fold(0.0, f64::max),
+            100.0 * part,
+            match run.recorded.as_ref().is_some_and(|own| own.has_band) {
+                true => "make `band` as wide as the other modes allow, or filter these out and leave `band` out",
+                false => "the window of the reading is longer than that lasted, or the table begins before the release",
+            }
+        )
+    })
+    .collect()
+}
+
+/// Lag-one correlation over all runs, and its standard deviation by chance; `None` of too few values.
+fn neighbours(runs: &[Vec<Complex64>]) -> Option<(f64, f64)> {
+    let (mut sum, mut pairs) = (0.0, 0);
+    for run in runs {
+        let power: f64 = run.iter().map(|own| own.norm_sqr()).sum::<f64>() / run.len() as f64;
+        if power > 0.0 {
+            let of_pair = |pair: &[Complex64]| (pair[0].conj() * pair[1]).re / power;
+            sum += run.windows(2).map(of_pair).sum::<f64>();
+            pairs += run.len() - 1;
+        }
+    }
+    (pairs >= FEWEST_PAIRS).then(|| (sum / pairs as f64, (pairs as f64).sqrt().recip()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_alternates_and_what_goes_slowly_is_told_from_noise() {
+        let run = |of: &dyn Fn(f64) -> f64| -> Vec<Complex64> {
+            (0..100)
+                .map(|i| Complex64::from(of(f64::from(i))))
+                .collect()
+        };
+        let of = |run: Vec<Complex64>| neighbours(&[run]).unwrap().0;
+        // cos(ω) of a sine, and −1 of what alternates
+        assert!((of(run(&|i| (0.1 * i).sin())) - 0.1_f64.cos()).abs() < 0.02);
+        assert!((of(run(&|i| (std::f64::consts::PI * i).cos())) + 1.0).abs() < 1e-12);
+        assert_eq!(neighbours(&[vec![Complex64::ONE; 5]]), None);
     }
 }

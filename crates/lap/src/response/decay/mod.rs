@@ -116,6 +116,10 @@ pub(super) fn backbone_of(
     if lines.len() < 2 {
         return Err(DecayProblem::TooShort(lines.len()));
     }
+    let read = stretches.stretches.iter().map(|stretch| stretch.amplitude);
+    let read = read.fold(0.0, f64::max);
+    let largest = record.values.iter().map(|value| value.abs());
+    let read_part = read / largest.fold(f64::MIN_POSITIVE, f64::max);
     let errors = stretches.errors(&lines, beside);
     let errors = errors.ok_or(DecayProblem::TooShort(lines.len()))?;
     Ok(Decay {
@@ -127,6 +131,7 @@ pub(super) fn backbone_of(
             quantity: Quantity::of_order(order),
             share,
             noise: spectrum.noise,
+            read_part,
             has_band: band_hz.is_some(),
         },
     })

@@ -39,6 +39,8 @@ pub(in crate::response) struct Recorded {
     pub(super) share: f64,
     /// Standard deviation of white noise of a sample, by the median of the spectrum.
     pub(super) noise: f64,
+    /// The largest amplitude that is read of it, as a part of its largest value.
+    pub(in crate::response) read_part: f64,
     /// Whether the study names the band of the mode, since there are others.
-    pub(super) has_band: bool,
+    pub(in crate::response) has_band: bool,
 }

@@ -10,6 +10,7 @@ fn record(quantity: Quantity, interval_s: f64) -> Recorded {
         quantity,
         share: 0.5,
         noise: 1e-6,
+        read_part: 1.0,
         has_band: false,
     }
 }

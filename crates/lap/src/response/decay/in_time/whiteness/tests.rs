@@ -30,6 +30,7 @@ fn told(residual: Vec<f64>) -> Option<Coloured> {
         quantity: Quantity::Displacement,
         share: 1.0,
         noise: 3e-6,
+        read_part: 1.0,
         has_band: false,
     };
     let grid = Grid::of(&record, COUNT, 707.0);

@@ -143,7 +143,8 @@ impl SpatialIdentification {
             free: self.free.as_ref(),
             deviations: &self.deviations,
             basis: format!(
-                "information matrix of the assembly's functions, {level}; {errors}; {substructures}"
+                "information matrix of the assembly's functions, {level}; {errors}; {substructures}{}",
+                self.warnings.iter().map(|told| format!("; {told}")).collect::<String>()
             ),
             unknowns: &self.unknowns,
             correlation: &self.correlation,

@@ -29,6 +29,9 @@ const PATIENCE: usize = 2;
 const LAGGING: f64 = 3.0;
 const EXPLAINED: f64 = 1.05;
 
+/// Likewise of a set-up that no joint goes with.
+const HOPELESS: f64 = 30.0;
+
 /// Likewise of the errors of the set-up.
 const EXPECTED: f64 = 1.3;
 
@@ -73,18 +76,20 @@ pub(crate) fn together(
         let again = again.flat_map(|start| [(Way::Straight, start.clone()), (Way::Curved, start)]);
         let _ = searches.follow(again)
             || searches.ends_within_noise()
+            || searches.is_hopeless()
             || searches.follow(tries.flatten());
     }
     // a minimum that nothing confirms may be another one
     let is_confirmed = searches.is_confirmed();
-    let best = searches.best.ok_or(SpatialError::NoStart)?;
+    let best = searches.best.take().ok_or(SpatialError::NoStart)?;
     // what nothing explains has no bottom that is worth the way there
     let effort = match lags(&searches.thin, best.cost) && !is_confirmed {
         true => Effort::Coarse,
         false => Effort::Full,
     };
     let mut fit = Fit::of(&lines, best.unknowns, level, effort)?;
-    fit.has_converged &= is_confirmed;
+    // more lines may lead where a motion gets lost
+    fit.has_converged &= is_confirmed && !(is_stated && searches.is_rigid(&fit));
     Ok((fit, [searches.tried, searches.agreeing]))
 }
 
@@ -179,7 +184,7 @@ impl<'p> Searches<'p> {
             }
             // two that are far above the noise agree on where a search gets stuck
             let is_low = |best: &Fit| !self.is_stated || !lags(&self.thin, best.cost);
-            let is_enough = |best: &Fit| self.explains(best) || self.agreeing > 1 && is_low(best);
+            let is_enough = |best: &Fit| self.explains(best) || self.agree(best) && is_low(best);
             if self.best.as_ref().is_some_and(is_enough) {
                 return true;
             }
@@ -190,7 +195,16 @@ impl<'p> Searches<'p> {
     /// Whether noise and budget explain what is left, and no motion of the joint got lost on the way.
     fn explains(&self, fit: &Fit) -> bool {
         fit.cost < NOTHING * self.thin.numbers() as f64
-            || self.is_within_noise(fit) && !is_rigid(&self.thin, &self.balance, &fit.unknowns)
+            || self.is_within_noise(fit) && !self.is_rigid(fit)
+    }
+
+    /// Whether two searches came to it, and neither has lost a motion of the joint.
+    fn agree(&self, fit: &Fit) -> bool {
+        self.agreeing > 1 && !(self.is_stated && self.is_rigid(fit))
+    }
+
+    fn is_rigid(&self, fit: &Fit) -> bool {
+        is_rigid(&self.thin, &self.balance, &fit.unknowns)
     }
 
     fn is_within_noise(&self, fit: &Fit) -> bool {
@@ -206,8 +220,15 @@ impl<'p> Searches<'p> {
         best.is_some_and(|best| self.is_within_noise(best))
     }
 
+    /// Whether all searches so far are so far above the noise that the set-up is another one than the study says.
+    fn is_hopeless(&self) -> bool {
+        let most = HOPELESS * self.thin.numbers() as f64;
+        self.is_stated && self.best.as_ref().is_some_and(|best| best.cost > most)
+    }
+
     fn is_confirmed(&self) -> bool {
-        self.agreeing > 1 || self.best.as_ref().is_some_and(|best| self.explains(best))
+        let best = self.best.as_ref();
+        best.is_some_and(|best| self.agree(best) || self.explains(best))
     }
 }
 

@@ -154,6 +154,7 @@ fn as_json(
         })).collect::<Vec<_>>(),
         "usable": found.reasons_against.is_empty(),
         "reasons_against": found.reasons_against,
+        "warnings": found.warnings,
     })
 }
 

@@ -99,7 +99,9 @@ def test_a_side_without_a_structure_does_not_move(run, tmp_path):
     [
         ("c=a.npz@1:+Y,1:+RZ", "expected a side, a file of modes or of matrices"),
         ("a=a.npz@1:+Y,9:+RZ", "found 9:+RZ, expected a point of the structure: 1:+Y, 1:+RZ"),
-        ("a=a.npz@1:+Y", "found 1 values for the joint's 2 degrees of freedom"),
+        ("a=a.npz@1:+Y", "found 1 points for y, theta at side a"),
+        ("a=a.npz@1:+RZ,1:+Y", "found 1:+RZ for y at side a, expected a translation for a translation"),
+        ("a=a.npz@1:+Y,1:+Y", "found 1:+Y for theta at side a, expected a translation for a translation"),
         ("a=none.npz@1:+Y,1:+RZ", "none.npz"),
     ],
 )

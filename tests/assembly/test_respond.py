@@ -245,6 +245,7 @@ def test_a_cubic_joint_is_followed_by_modes_of_a_file(run, tmp_path, beams):
         (('matrices = "a.npz"', 'matrices = "skew.npz"'), "expected a symmetric matrix"),
         (('matrices = "a.npz"', 'matrices = "soft.npz"'), "a stiffness that is not negative in any motion"),
         (('matrices = "a.npz"', 'matrices = "massless.npz"'), "the mass matrix is not positive definite"),
+        (('matrices = "a.npz"', 'matrices = "damped.npz"'), "array D: found a matrix of 3 × 3, and no array C"),
         (
             ('kind = "linear"', 'kind = "linear"\nduration = 1'),
             '`response.duration`: found it, expected it with kind = "history" only',
@@ -261,6 +262,7 @@ def test_what_is_wrong_is_told(run, tmp_path, beams, change, told):
         "skew": {"M": unit, "K": unit + np.triu(unit[::-1], 1)},
         "soft": {"M": unit, "K": np.diag([1.0, 2.0, -0.5])},
         "massless": {"M": np.diag([1.0, 1.0, 0.0]), "K": unit},
+        "damped": {"M": unit, "K": unit, "D": unit},
     }.items():
         np.savez(tmp_path / f"{name}.npz", points=points, **matrices)
     text = path.read_text()
@@ -269,6 +271,48 @@ def test_what_is_wrong_is_told(run, tmp_path, beams, change, told):
     done = run("respond", path, "-o", tmp_path / "out.csv", expect=1)
     assert told in done.stderr
     assert not (tmp_path / "out.csv").exists()
+
+
+def test_an_active_joint_is_not_to_be_relied_on(run, tmp_path, beams):
+    path = write(tmp_path, beams, LINEAR)
+    file = json.loads((tmp_path / "m10.joint.json").read_text())
+    file["joint"]["stiffness"] = [[5.73e5, 5e4], [5e4, 1.29e3]]
+    (tmp_path / "m10.joint.json").write_text(json.dumps(file))
+    done = run("respond", path, "-o", tmp_path / "out.csv", expect=3)
+    assert "joint.stiffness is active" in done.stderr and "may grow without bounds" in done.stderr
+
+
+def test_loads_and_motions_have_any_name(run, tmp_path, beams):
+    path = write(tmp_path, beams, LINEAR)
+    path.write_text(path.read_text().replace('tip = "b/', 'frf = "b/').replace('push = "b/', 'modal = "b/'))
+    _, heading, _ = respond(run, path)
+    assert heading[1].startswith("frf/modal")
+
+
+@pytest.mark.parametrize(
+    ("points", "told"),
+    [
+        ('"1:+Y" = 0.0, "1:+RZ" = 0.0, "12:+X" = 0.3', "`structures.b.points.12:+X`: found X beside 1:+Y"),
+        ('"1:+Y" = 0.0, "1:+RZ" = 0.1, "12:+Y" = 0.3', "`structures.b.points.1:+RZ`: found 0.1 m, and 0 m for 1:+Y"),
+    ],
+)
+def test_a_beam_bends_in_one_plane(run, tmp_path, points, told):
+    beam = (
+        'beam = {{ length = 0.335, width = 0.03, height = 0.006, youngs_modulus = 70e9, density = 2700, boundary = "{}" }}\n'
+        'points = {{ {} }}'
+    )
+    sources = {"a": beam.format("fixed-free", '"1:+Y" = 0.3, "1:+RZ" = 0.3'), "b": beam.format("free-free", points)}
+    done = run("respond", assembly(tmp_path, sources, LINEAR), "-o", tmp_path / "out.csv", expect=1)
+    assert told in done.stderr, done.stderr
+
+
+def test_what_nothing_damps_is_told(run, tmp_path, beams):
+    path = write(tmp_path, beams, LINEAR)
+    with np.load(tmp_path / "a.npz") as file:
+        rest = {name: file[name] for name in ("M", "K", "points")}
+    np.savez(tmp_path / "a.npz", **rest)
+    told, _, _ = respond(run, path)
+    assert told["notes"] == ["structures.a is undamped: the file has no array C, or a C of zeros"]
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 use bolted_joint_testing::{close, has};
 
-use bolted_joint::identify::lap::{LapResponse, ResponseUnknown};
+use bolted_joint::identify::lap::{LapResponse, ResponseUnknown, SliderParameter};
 
 use crate::slipping::{
     C12, DAMPING, FREQUENCY, FirstLoading, K0, Measured, backbone, identified_of, iwan, study_of,
@@ -116,4 +116,41 @@ fn a_wrong_law_is_said_and_its_intervals_do_not_hold() {
             assert!(!(low..=high).contains(&truth), "{low} {high}");
         }
     }
+}
+
+/// Without a stated noise no χ² tells a wrong law: what is left of neighbouring points does.
+#[test]
+fn a_pattern_in_the_residuals_is_told() {
+    let unstated = |tables: String| {
+        let (_, rest) = tables.split_once("[[backbone]]").unwrap();
+        format!("[[backbone]]{rest}")
+    };
+    let measured = one_slider();
+    for (terms, is_told) in [("jenkins", false), ("k3", true)] {
+        let terms = format!("terms = [\"{terms}\"]\ncompare = false");
+        for seed in 0..10 {
+            let (_folder, study) = study_of(&measured, &terms, seed, unstated);
+            let (found, _) = identified_of(&study);
+            let warnings = found.warnings(&study).join("\n");
+            let is_pattern = warnings.contains("residuals of neighbouring points are correlated");
+            assert_eq!(is_pattern, is_told, "{terms}: {warnings}");
+        }
+    }
+}
+
+#[test]
+fn deviations_of_friction_stand_in_the_file() {
+    let terms = "terms = [\"jenkins\"]\ncompare = false";
+    let (_folder, study) = study_of(&one_slider(), terms, 1, |tables| tables);
+    let (found, file) = identified_of(&study);
+    let friction = &file.uncertainty.unwrap().standard_deviation.friction;
+    let of = |parameter| {
+        let unknown = ResponseUnknown::Slider(parameter);
+        let own = found.estimates.iter().find(|own| own.unknown == unknown);
+        own.unwrap().standard_deviation
+    };
+    let expected = [SliderParameter::Stiffness, SliderParameter::SlipForce].map(of);
+    assert_eq!(friction.len(), 1);
+    assert_eq!(friction[0].parameters, expected);
+    assert_eq!(friction[0].dof.name, file.joint.friction[0].dof.name);
 }

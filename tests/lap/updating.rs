@@ -180,3 +180,18 @@ fn bodies_that_are_the_same_at_all_torques_have_one_file_over_the_preload() {
     }
     assert!(files[0].1.to_json().is_ok());
 }
+
+#[test]
+fn one_frequency_alone_gives_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.toml");
+    let text = "method = \"lap-update\"\nname = \"one\"\n[[assembly]]\nfrequency_hz = [102.07]\nrelative_deviation = 0.002\n\
+                [known]\nm = 2\nk12 = 394784\nc = 1\nc12 = 1\n[bounds]\nk = [1e4, 1e7]\n";
+    std::fs::write(&path, text).unwrap();
+    let study = LapUpdateStudy::read(&path).unwrap();
+    let found = LapUpdate::of(&study, &silent).unwrap();
+    let (_, file) = &found.joint_files()[0];
+    assert_eq!(file.validate(), []);
+    let [from_hz, to_hz] = file.validity.as_ref().unwrap().frequency_hz;
+    assert_eq!(from_hz, to_hz);
+}

@@ -31,6 +31,7 @@ impl ModalForm {
             points: Default::default(),
             modes: Some(ALL_MODES),
         };
-        structure(&StudyText::new("", path), "neighbour", table)
+        let (form, told) = structure(&StudyText::new("", path), "neighbour", table)?;
+        Ok((form, told.warnings))
     }
 }

@@ -37,7 +37,7 @@ impl AssemblyModel {
         for (key, found) in tables.about.iter().flat_map(About::texts) {
             text.check_name(&format!("about.{key}"), found)?;
         }
-        let mut warnings = Vec::new();
+        let (mut warnings, mut notes) = (Vec::new(), Vec::new());
         let mut structures = Vec::new();
         for (name, table) in tables.structures {
             let key = format!("structures.{name}");
@@ -49,7 +49,8 @@ impl AssemblyModel {
                 "a name without: a slash stands between structure and point",
             )?;
             let (form, told) = structure(text, &name, table)?;
-            warnings.extend(told);
+            warnings.extend(told.warnings);
+            notes.extend(told.notes);
             structures.push(NamedStructure { name, form });
         }
         text.ensure(
@@ -86,7 +87,7 @@ impl AssemblyModel {
             inputs,
             outputs,
             warnings,
-            notes: Vec::new(),
+            notes,
         };
         let freedom = Freedom::of(&model)?;
         if let Some((joint, mechanism)) = freedom.mechanisms.first()
@@ -103,7 +104,7 @@ impl AssemblyModel {
             .map(|(joint, mechanism)| format!("joint {}: {mechanism}", model.joints[*joint].name));
         let told: Vec<String> = told.collect();
         model.warnings.extend(told);
-        model.notes = freedom.notes;
+        model.notes.extend(freedom.notes);
         Ok(model)
     }
 }

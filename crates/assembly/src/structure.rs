@@ -26,12 +26,19 @@ const COMPLEX: f64 = 0.05;
 /// Frequency of what stands for residuals of measured modes, in parts of the highest measured one.
 const OF_RESIDUALS: f64 = 3.0;
 
+/// What should be known of how a structure was read: what may well be as it is meant are notes.
+#[derive(Default)]
+pub(crate) struct Told {
+    pub(crate) warnings: Vec<String>,
+    pub(crate) notes: Vec<String>,
+}
+
 /// A structure, and what should be known of how it was read.
 pub(crate) fn structure(
     study: &StudyText,
     name: &str,
     table: StructureTable,
-) -> Result<(ModalForm, Vec<String>), AssemblyError> {
+) -> Result<(ModalForm, Told), AssemblyError> {
     let key = format!("structures.{name}");
     if let Some(modes) = table.modes {
         study.within(
@@ -66,7 +73,12 @@ pub(crate) fn structure(
         (None, Some(path), None) => {
             points_beside("a file of modes")?;
             let model = ModalModel::read(&study.resolved(&path)).map_err(failed)?;
-            of_modes(study, &key, &model, kept)?
+            let (form, warnings) = of_modes(study, &key, &model, kept)?;
+            let told = Told {
+                warnings,
+                ..Told::default()
+            };
+            (form, told)
         }
         (None, None, Some(beam)) => {
             let beam = computed(study, &key, beam)?;
@@ -96,10 +108,12 @@ pub(crate) fn structure(
 }
 
 /// A word where nothing damps a structure, and why.
-fn undamped(key: &str, all: &AllModes, why: &str) -> Vec<String> {
-    match all.damping_per_s.iter().all(|own| *own == 0.0) {
-        true => vec![format!("{key} is undamped: {why}")],
-        false => Vec::new(),
+fn undamped(key: &str, all: &AllModes, why: &str) -> Told {
+    let is_undamped = all.damping_per_s.iter().all(|own| *own == 0.0);
+    let note = is_undamped.then(|| format!("{key} is undamped: {why}"));
+    Told {
+        notes: note.into_iter().collect(),
+        ..Told::default()
     }
 }
 

@@ -196,6 +196,7 @@ fn slider<N: Number, M: Number + Into<N>>(memory: &[M]) -> N {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Dual;
     use crate::random::Random;
     use std::f64::consts::{PI, TAU};
 
@@ -348,5 +349,17 @@ mod tests {
         // the power of slipping is the slip force times the rate, and none while it turns back
         assert_eq!(law.dissipated_power(&memory, 6.0, 0.5), 1.5);
         assert_eq!(law.dissipated_power(&memory, 6.0, -0.5), 0.0);
+    }
+
+    #[test]
+    fn a_slider_that_bears_nothing_has_no_stiffness() {
+        let law = Jenkins {
+            stiffness: Dual::from(1e6),
+            slip_force: Dual::from(0.0),
+        };
+        for r in [0.0, 1e-4] {
+            let load = law.load(&[0.0], Dual::<1>::along(r, 0), Dual::from(0.0));
+            assert_eq!((load.value, load.change), (0.0, [0.0]));
+        }
     }
 }

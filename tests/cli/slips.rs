@@ -195,6 +195,23 @@ fn beams_and_points_of_an_assembly_are_checked() {
 }
 
 #[test]
+fn layered_beams_in_other_units_are_told() {
+    let bench = files_of("kavi-layered-beam");
+    let text = bench.text("study.toml");
+    #[rustfmt::skip]
+    let cases = [
+        ("length = 0.370 ", "length = 370 ", ["`beam.length`: found 370", "is it in millimetres?"]),
+        ("width = 0.04125 ", "width = 41.25 ", ["`beam.width`: found 41.25", "is it in millimetres?"]),
+        ("density = 7850 ", "density = 7.85 ", ["`beam.layer[0].density`: found 7.85", "is it in g/cm³"]),
+    ];
+    bench.refused_edits(
+        "predict study.toml -o o.joint.json",
+        ("study.toml", &text),
+        &cases,
+    );
+}
+
+#[test]
 fn a_study_without_a_method_gets_a_list_of_them() {
     let bench = Bench::new();
     bench.write("study.toml", "name = \"x\"\n");

@@ -62,6 +62,23 @@ pub struct ModalModel {
     warnings: Vec<String>,
 }
 
+/// Damping ratio from which on it may be meant in per cent: a bolted structure has less than a hundredth.
+const LARGE_RATIO: f64 = 0.2;
+
+/// A word on modes that hardly swing.
+fn of_damping(modes: &[Mode]) -> Option<String> {
+    let largest = modes
+        .iter()
+        .map(|mode| mode.damping_ratio)
+        .fold(0.0, f64::max);
+    (LARGE_RATIO..1.0).contains(&largest).then(|| {
+        format!(
+            "damping ratios up to {largest} are taken as parts of the critical damping, {:.0} %: if they are per cent, divide them by 100",
+            100.0 * largest
+        )
+    })
+}
+
 impl ModalModel {
     /// Reads modal data from a TOML file, or from a universal file with data sets 55.
     ///
@@ -96,10 +113,10 @@ impl ModalModel {
         let model = Self {
             path,
             points: file.points,
+            warnings: of_damping(&file.modes).into_iter().collect(),
             modes: file.modes,
             residuals: file.residuals,
             understood: Vec::new(),
-            warnings: Vec::new(),
         };
         model.check()?;
         Ok(model)
@@ -404,5 +421,17 @@ mod tests {
             missing.to_string(),
             "modes.toml: no mode shape at 5:+Y; the points are 1:+Y, 2:+Y; correct the point in the study, or add its shape"
         );
+    }
+
+    #[test]
+    fn much_damping_may_be_in_per_cent() {
+        let told = |ratio: f64| {
+            let text =
+                ONE_MODE.replace("damping_ratio = 0.02", &format!("damping_ratio = {ratio}"));
+            let model = model(&text).unwrap();
+            model.warnings().join(", ")
+        };
+        assert_eq!(told(0.02), "");
+        assert!(told(0.5).contains("divide them by 100"));
     }
 }

@@ -102,12 +102,15 @@ fn mode_number(study: &StudyText, key: &str, found: usize) -> Result<usize, Stud
 }
 
 fn layered(study: &StudyText, table: &BeamTable) -> Result<LayeredBeam, StudyError> {
+    study.plausible_in_beam("beam", BeamNumber::Length, table.length)?;
+    study.plausible_in_beam("beam", BeamNumber::Width, table.width)?;
     for (place, layer) in table.layer.iter().enumerate() {
-        study.plausible_in_beam(
-            format_args!("beam.layer[{place}]"),
-            BeamNumber::YoungsModulus,
-            layer.youngs_modulus,
-        )?;
+        for (number, found) in [
+            (BeamNumber::YoungsModulus, layer.youngs_modulus),
+            (BeamNumber::Density, layer.density),
+        ] {
+            study.plausible_in_beam(format_args!("beam.layer[{place}]"), number, found)?;
+        }
     }
     let layers = table.layer.iter().map(|layer| Layer {
         thickness_m: layer.thickness,

@@ -55,8 +55,8 @@ pub(super) struct Block {
 /// No measurement is taken for better than that: its reciprocal is a number.
 const LEAST_VARIANCE: f64 = 1e-300;
 /// A measured |H|² counts for at least this part of the smaller one beside it: a value that got lost between others is not
-/// exact for that.
-const LEAST_OF_NEIGHBOURS: f64 = 1e-3;
+/// exact for that. Noise alone is hardly ever so small.
+const LEAST_OF_NEIGHBOURS: f64 = 1e-6;
 
 impl Block {
     /// The `chosen` ones of `lines`, whose joint is number `joint` of those that are sought.

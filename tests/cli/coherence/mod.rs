@@ -70,8 +70,7 @@ fn chi_squared(file: &Value) -> f64 {
 /// The program's result against that of the likelihood.
 fn agree(file: &Value, expected: &Fit) {
     let away = (estimate(file) - expected.unknowns).component_div(&expected.deviation);
-    // a value that is next to nothing between others is not taken for as exact as its coherence says
-    assert!(away.amax() < 3e-4, "{away}");
+    assert!(away.amax() < 1e-4, "{away}");
     let chi = expected.reduced_chi_squared;
     assert!((chi_squared(file) / chi - 1.0).abs() < 1e-6, "{chi}");
     // Coherence is the least that the noise can be: where the residual is larger, the deviations are.

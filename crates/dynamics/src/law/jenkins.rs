@@ -45,11 +45,11 @@ enum Bearing<N> {
 impl<N: Number> Jenkins<N> {
     /// Return mapping from the slider's committed place x to the displacement r.
     fn bearing<M: Number + Into<N>>(&self, memory: &[M], r: N) -> Bearing<N> {
-        // e* = r − x; it sticks if |k e*| ≤ h, and never where h = 0
+        // e* = r − x; it sticks if |k e*| ≤ h. A spring that can bear nothing, h = 0, never does; without a spring nothing slips.
         let elongation = r - slider(memory);
-        let slip_force = self.slip_force.value();
-        let force = (self.stiffness.value() * elongation.value()).abs();
-        if slip_force > 0.0 && force <= slip_force {
+        let (stiffness, slip_force) = (self.stiffness.value(), self.slip_force.value());
+        let holds = slip_force > 0.0 || stiffness <= 0.0;
+        if holds && (stiffness * elongation.value()).abs() <= slip_force {
             Bearing::Sticks(elongation)
         } else {
             Bearing::Slips(elongation.value().signum())
@@ -360,6 +360,27 @@ mod tests {
         for r in [0.0, 1e-4] {
             let load = law.load(&[0.0], Dual::<1>::along(r, 0), Dual::from(0.0));
             assert_eq!((load.value, load.change), (0.0, [0.0]));
+        }
+    }
+
+    #[test]
+    fn a_law_of_zeros_gives_zeros() {
+        for stiffness in [0.0, 1e6] {
+            let law = Jenkins {
+                stiffness,
+                slip_force: 0.0,
+            };
+            let mut memory = [0.0];
+            for r in [0.0, 1e-4, -2e-4] {
+                let told = [
+                    law.load(&memory, r, 1.0),
+                    law.stored_energy(&memory, r),
+                    law.dissipated_power(&memory, r, 1.0),
+                    law.commit(&mut memory, r, 1.0),
+                ];
+                assert!(told.iter().all(|own| *own == 0.0), "{told:?}");
+                assert_eq!(memory, [r]);
+            }
         }
     }
 }

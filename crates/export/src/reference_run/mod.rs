@@ -273,3 +273,28 @@ fn entry(name: &str, side: &str, dofs: DofSet, quantities: &[(NameOf, &[f64])]) 
         values.get(place).copied()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn energies_that_are_rounding_are_left_out_and_nothing_else() {
+        let names = [
+            "a.y",
+            "energy.stored",
+            "energy.preload",
+            "energy.dissipated",
+        ];
+        let mut table = Table {
+            names: names.map(str::to_owned).to_vec(),
+            rows: vec![(0.0, vec![0.0; 4]), (1.0, vec![1e-20, 2e-3, 2e-24, 0.0])],
+        };
+        let noise = table.of_rounding();
+        assert_eq!(noise, [2]);
+        table.leave_out(&noise);
+        // a small motion is one, and an energy of zero is exact
+        assert_eq!(table.names, ["a.y", "energy.stored", "energy.dissipated"]);
+        assert_eq!(table.rows[1].1, [1e-20, 2e-3, 0.0]);
+    }
+}

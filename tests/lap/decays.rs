@@ -334,6 +334,28 @@ fn a_law_that_is_wrong_for_a_decay_is_said() {
     assert!(residual.lines == all_lines(&found) && residual.relative_rms > 0.0);
 }
 
+/// A narrow band asks for a long window, which a quick beginning does not outlast.
+#[test]
+fn a_beginning_that_is_not_read_is_said() {
+    let records = Records::of(&vec![[0.3 * K0, 0.2 * LARGEST_M]], [1.0, LEFT_OUT]);
+    let (folder, study) = records.study("\"jenkins\"", (1, 0.002));
+    let told = |study: &LapResponseStudy| identified(study).warnings(study).join("\n");
+    let says = "of what the record begins with: nothing is known of larger ones";
+    // sample by sample nothing of it is lost
+    let whole = told(&study);
+    assert!(!whole.contains(says), "{whole}");
+    let path = folder.path().join("study.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let banded = text.replacen(
+        "file = \"fitted.csv\"",
+        "file = \"fitted.csv\"\nband = [80, 150]",
+        1,
+    );
+    std::fs::write(&path, banded).unwrap();
+    let study = LapResponseStudy::read(&path).unwrap();
+    has(&told(&study), &[says, "make `band` as wide as"]);
+}
+
 fn all_lines(found: &LapResponse) -> usize {
     let fitted = found.backbones.iter().filter(|run| !run.left_out);
     fitted.map(|run| 2 * run.points.len()).sum()

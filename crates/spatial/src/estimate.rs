@@ -12,7 +12,7 @@ use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::reasons;
-use crate::richer;
+use crate::richer::{Richer, richer};
 use crate::search::{SEARCHED, searched};
 use crate::spread::Spread;
 use crate::study::SpatialStudy;
@@ -60,7 +60,7 @@ struct Found {
     /// Starts that were tried, and that agree.
     starts: [usize; 2],
     /// That the joint is not what its model says.
-    richer: Option<String>,
+    richer: Option<Richer>,
 }
 
 impl SpatialStudy {
@@ -125,7 +125,7 @@ impl SpatialStudy {
         };
         let normal = Normal::of(&exact, &unknowns, &level)?;
         let at = with_joint(&best.unknowns, &unknowns);
-        let richer = richer::warning(&estimated, &best.unknowns, |problem, unknowns| {
+        let richer = richer(&estimated, &best.unknowns, |problem, unknowns| {
             Normal::of(problem, unknowns, &level)
         })?;
         Ok(Found {
@@ -169,7 +169,7 @@ impl SpatialStudy {
         let best = Fit::by(&mut squares, unknowns, Effort::Full)?;
         has_converged &= best.has_converged;
         let information = squares.normal(&best.unknowns)?.information;
-        let richer = richer::warning(&estimated, &best.unknowns, |problem, unknowns| {
+        let richer = richer(&estimated, &best.unknowns, |problem, unknowns| {
             Beside::of(problem, &level, noise, unknowns)?.normal(unknowns)
         })?;
         unknowns = best.unknowns.clone();
@@ -293,12 +293,17 @@ impl SpatialStudy {
             starts: *starts,
             groups: spread.groups.iter().map(group).collect(),
             errors: problem.found_errors(&best.unknowns, &spread.together),
-            warnings: richer.iter().cloned().collect(),
+            warnings: richer.iter().map(Richer::warning).collect(),
             reasons_against: Vec::new(),
         };
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
         let of_energy = reasons::of_energy(squares_from_free, count);
         result.reasons_against.extend(of_energy);
+        let found = [&result.stiffness, &result.damping];
+        let of_model = richer
+            .as_ref()
+            .and_then(|richer| richer.reason(found, &result.deviations));
+        result.reasons_against.extend(of_model);
         Ok(result)
     }
 }

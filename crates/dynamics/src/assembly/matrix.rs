@@ -2,6 +2,13 @@
 
 use std::ops::{Index, IndexMut};
 
+use super::products::{add_rows, dot, dots};
+
+/// Rows that products go through at a time.
+const BLOCK: usize = 4;
+/// Columns below which that gains nothing.
+const SHORT: usize = 16;
+
 /// A matrix, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
@@ -163,20 +170,41 @@ impl Matrix {
     #[inline]
     pub fn add_product_to(&self, x: &[f64], sum: &mut [f64]) {
         debug_assert_eq!((self.columns, self.rows), (x.len(), sum.len()));
-        for (i, sum) in sum.iter_mut().enumerate() {
-            *sum += dot(self.row(i), x);
+        let (blocks, rest) = match self.columns < SHORT {
+            true => sum.split_at_mut(0),
+            false => sum.split_at_mut(self.rows - self.rows % BLOCK),
+        };
+        let first = blocks.len();
+        for (block, sums) in blocks.chunks_exact_mut(BLOCK).enumerate() {
+            let rows = std::array::from_fn(|i| self.row(BLOCK * block + i));
+            for (sum, own) in sums.iter_mut().zip(dots::<BLOCK>(rows, x)) {
+                *sum += own;
+            }
+        }
+        for (i, sum) in rest.iter_mut().enumerate() {
+            *sum += dot(self.row(first + i), x);
         }
     }
 
     /// Adds Aᵀ x to `sum`, row by row; what is zero costs nothing.
     #[inline]
     pub(super) fn add_rows_to(&self, x: &[f64], sum: &mut [f64]) {
-        for (i, &factor) in x.iter().enumerate() {
-            if factor != 0.0 {
-                for (sum, own) in sum.iter_mut().zip(self.row(i)) {
-                    *sum += factor * own;
-                }
+        let mut terms = x.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
+        loop {
+            let next: [_; BLOCK] = std::array::from_fn(|_| terms.next());
+            let mut block = [(0.0, &[][..]); BLOCK];
+            let mut count = 0;
+            for (i, &factor) in next.into_iter().flatten() {
+                block[count] = (factor, self.row(i));
+                count += 1;
             }
+            if count < BLOCK {
+                block[..count]
+                    .iter()
+                    .for_each(|term| add_rows([*term], sum));
+                break;
+            }
+            add_rows(block, sum);
         }
     }
 
@@ -298,23 +326,6 @@ impl IndexMut<(usize, usize)> for Matrix {
     fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
         &mut self.values[i * self.columns + j]
     }
-}
-
-/// Sum of the products, four at a time, so that none waits for the one before.
-#[inline]
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    const LANES: usize = 4;
-    let mut sums = [0.0; LANES];
-    let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = (a.remainder().iter().zip(b.remainder()))
-        .map(|(a, b)| a * b)
-        .sum();
-    for (a, b) in a.zip(b) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

@@ -76,19 +76,15 @@ pub(super) fn blocks(parts: &Parts, frame: &Frame, length_s: f64) -> Blocks {
     let (acting, seen) = (&parts.acting, &parts.sight.places);
     let phi = Turns::over(frame, length_s);
     let by = |k: usize| phi[k].of_rows(acting, length_s);
-    Blocks {
-        by: std::array::from_fn(|power| by(power + 1)),
-        // as often as it is integrated, so much further is φ
-        moments: std::array::from_fn(|moment| phi[moment + 1].seen_by(seen)),
-        moments_by: std::array::from_fn(|moment| {
-            let seen = |power: usize| seen.product(&by(power + moment + 2).transposed());
-            std::array::from_fn::<_, POWERS, _>(seen)
-        }),
-        state: Going::Turning({
-            let [own, ..] = phi;
-            own
-        }),
-    }
+    let by_powers = std::array::from_fn(|power| by(power + 1));
+    // as often as it is integrated, so much further is φ
+    let moments = std::array::from_fn(|moment| phi[moment + 1].seen_by(seen));
+    let moments_by = std::array::from_fn(|moment| {
+        let seen = |power: usize| seen.product(&by(power + moment + 2).transposed());
+        std::array::from_fn::<_, POWERS, _>(seen)
+    });
+    let [own, ..] = phi;
+    Blocks::new(Going::Turning(own), by_powers, &moments, &moments_by)
 }
 
 #[cfg(test)]
@@ -147,17 +143,21 @@ pub(super) mod tests {
             let identity = Matrix::identity(2 * system.size);
             let state = found.state.seen_by(out).product(frame.to_modes());
             assert_near(&state, &expected.state.seen_by(&identity));
-            for power in 0..POWERS {
-                let of_by = found.by[power].product(&out.transposed());
-                assert_near(&of_by, &expected.by[power]);
+            for row in 0..found.by.rows() {
+                let by = found.by.block([row, 0], 1, 2 * system.size);
+                let expected = expected.by.block([row, 0], 1, 2 * system.size);
+                assert_near(&by.product(&out.transposed()), &expected);
             }
-            for moment in 0..found.moments.len() {
-                let seen = found.moments[moment].product(frame.to_modes());
-                assert_near(&seen, &expected.moments[moment]);
-                for power in 0..POWERS {
+            let moments = found.moments.product(frame.to_modes());
+            for row in 0..moments.rows() {
+                let pairs = [
+                    (&moments, &expected.moments),
+                    (&found.moments_by, &expected.moments_by),
+                ];
+                for (own, other) in pairs {
                     let [own, other] =
-                        [&found, &expected].map(|own| &own.moments_by[moment][power]);
-                    assert_near(own, other);
+                        [own, other].map(|all| all.block([row, 0], 1, all.columns()));
+                    assert_near(&own, &other);
                 }
             }
         }

@@ -3,10 +3,7 @@
 //! The modes of M q̈ + C q̇ + K q = 0 with M = 1 and symmetric C and K: (λ² + λ C + K) φ = 0. In the coordinates z of
 //! q = Σ Re φ z₁ + Im φ z₂, q̇ = Σ Re λφ z₁ + Im λφ z₂, each pair turns and decays by itself. What is free, and undamped, goes on.
 
-use super::{
-    matrix::{Matrix, dot},
-    system::System,
-};
+use super::{matrix::Matrix, products::dot, system::System};
 use crate::{complex::Complex, elementary::hypotenuse};
 
 /// Fewer coordinates gain nothing.

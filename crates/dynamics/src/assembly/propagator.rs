@@ -8,6 +8,8 @@
 //! All of them, and the integrals of the motion that the work of the forces takes, are blocks of one exponential, with no
 //! inverse, so that motions of free bodies need no care. That of twice the length is its square.
 
+use std::ops::Range;
+
 use super::{exponential::Growth, matrix::Matrix, modal::Turns, system::System};
 
 /// Powers of time that the joints' forces of a step have: constant to quartic. Loads go up to the cube.
@@ -20,12 +22,45 @@ pub(super) const MOMENTS: usize = POWERS - 1;
 pub(super) struct Blocks {
     /// E, 2n × 2n.
     pub(super) state: Going,
-    /// (hφ₁X)ᵀ to (hφ₅X)ᵀ, (m + d) × 2n: what each load and force adds stands side by side.
-    pub(super) by: [Matrix; POWERS],
-    /// What ∫ Rq dθ, with R = (Bᵀ; S), and the integrals over it take of y: (m + d) × 2n.
-    pub(super) moments: [Matrix; MOMENTS],
-    /// What they take of w₀ to w₄.
-    pub(super) moments_by: [[Matrix; POWERS]; MOMENTS],
+    /// (hφ₁X)ᵀ to (hφ₅X)ᵀ, one under the other: what each load and force adds stands side by side. 5 (m + d) × 2n.
+    pub(super) by: Matrix,
+    /// What ∫ Rq dθ, with R = (Bᵀ; S), and the integrals over it take of y, place by place: 4 (m + d) × 2n.
+    pub(super) moments: Matrix,
+    /// What they take of w₀ to w₄: 4 (m + d) × 5 (m + d).
+    pub(super) moments_by: Matrix,
+}
+
+impl Blocks {
+    /// Of E, (hφ₁X)ᵀ to (hφ₅X)ᵀ, and what each integral takes of y and of w₀ to w₄.
+    pub(super) fn new(
+        state: Going,
+        by: [Matrix; POWERS],
+        moments: &[Matrix; MOMENTS],
+        moments_by: &[[Matrix; POWERS]; MOMENTS],
+    ) -> Self {
+        let [first, ..] = moments;
+        let forces = first.rows();
+        let place = |row: usize| (row % MOMENTS, row / MOMENTS);
+        Self {
+            state,
+            by: Matrix::stacked(by.into_iter()),
+            moments: Matrix::from_fn(MOMENTS * forces, first.columns(), |row, j| {
+                let (moment, p) = place(row);
+                moments[moment][(p, j)]
+            }),
+            moments_by: Matrix::from_fn(MOMENTS * forces, POWERS * forces, |row, j| {
+                let (moment, p) = place(row);
+                moments_by[moment][j / forces][(p, j % forces)]
+            }),
+        }
+    }
+
+    /// (hφ_{p+1}X)ᵀ of some loads and forces.
+    pub(super) fn of_power(&self, power: usize, which: Range<usize>) -> Matrix {
+        let forces = self.by.rows() / POWERS;
+        let top = power * forces + which.start;
+        self.by.block([top, 0], which.len(), self.by.columns())
+    }
 }
 
 /// E as it is, or mode by mode.
@@ -146,23 +181,23 @@ impl<'s> Propagator<'s> {
             2.0_f64.powi(self.level * (of_row + of_column) as i32)
         };
         let (y, forces) = (rows.y(), rows.forces);
-        Blocks {
-            state: Going::Whole(part([y, y], 2 * n, 2 * n, &|i, j| unit(j) / unit(i))),
-            by: std::array::from_fn(|power| {
+        Blocks::new(
+            Going::Whole(part([y, y], 2 * n, 2 * n, &|i, j| unit(j) / unit(i))),
+            std::array::from_fn(|power| {
                 let own = powers(0, power);
                 part([y, rows.w(power)], 2 * n, forces, &|i, _| own / unit(i)).transposed()
             }),
-            moments: std::array::from_fn(|moment| {
+            &std::array::from_fn(|moment| {
                 let own = powers(moment + 1, 0);
                 part([rows.z(moment), y], forces, 2 * n, &|_, j| own * unit(j))
             }),
-            moments_by: std::array::from_fn(|moment| {
+            &std::array::from_fn(|moment| {
                 std::array::from_fn(|power| {
                     let own = powers(moment + 1, power);
                     part([rows.z(moment), rows.w(power)], forces, forces, &|_, _| own)
                 })
             }),
-        }
+        )
     }
 }
 

@@ -24,8 +24,8 @@ pub(super) struct Stages {
     pub(super) by_state: Matrix,
     /// … by the loads' powers of time, 4 · 2d × m.
     pub(super) by_loads: [Matrix; POWERS],
-    /// … by the forces at all nodes, 4 · 2d × 5d.
-    pub(super) by_forces: Matrix,
+    /// … by the forces at all nodes, 2d × 5d for each.
+    pub(super) by_forces: [Matrix; LATER],
     /// Moduli of what Legendre's polynomials of the forces make of (r, ṙ) at the end, 2d × d each.
     pub(super) of_legendre: [Matrix; NODES],
 }
@@ -34,7 +34,6 @@ impl Stages {
     /// By what becomes of a state over the time of each node after the first, and what `rows` (2d × 2n) see of it.
     pub(super) fn of(system: &System, rows: &Matrix, to_nodes: [&Blocks; LATER]) -> Self {
         let (m, d) = (system.loads, system.forces());
-        let size = 2 * system.size;
         let seen = |of: &dyn Fn(&Blocks, usize) -> Matrix, power: usize| {
             // θᵖ is the p-th power of the node's own time times that of the whole
             let each = to_nodes.iter().zip(&THETA[1..]).map(|(blocks, theta)| {
@@ -43,10 +42,9 @@ impl Stages {
             });
             Matrix::stacked(each)
         };
-        let of_loads =
-            |blocks: &Blocks, power: usize| blocks.by[power].block([0, 0], m, size).transposed();
+        let of_loads = |blocks: &Blocks, power: usize| blocks.of_power(power, 0..m).transposed();
         let of_forces =
-            |blocks: &Blocks, power: usize| blocks.by[power].block([m, 0], d, size).transposed();
+            |blocks: &Blocks, power: usize| blocks.of_power(power, m..m + d).transposed();
         let by_powers: [Matrix; POWERS] = std::array::from_fn(|power| seen(&of_forces, power));
         let along = |powers: [f64; POWERS], rows: usize| {
             let zeros = Matrix::zeros(rows, d);
@@ -64,7 +62,9 @@ impl Stages {
         Self {
             by_state: Matrix::stacked(to_nodes.iter().map(|blocks| blocks.state.seen_by(rows))),
             by_loads: std::array::from_fn(|power| seen(&of_loads, power)),
-            by_forces,
+            by_forces: std::array::from_fn(|node| {
+                by_forces.block([node * 2 * d, 0], 2 * d, NODES * d)
+            }),
             of_legendre: std::array::from_fn(|k| along(powers(unit(k)), 2 * d).moduli()),
         }
     }

@@ -5,8 +5,9 @@
 //! q̈ + C q̇ + Ω² q = B u − Sᵀ (K_j r + C_j ṙ + f(r, ṙ, memory))
 
 use super::{
-    matrix::{Matrix, dot},
+    matrix::Matrix,
     preload::{Following, LawOverPreload, LawsAt},
+    products::dot,
     state::AssemblyState,
 };
 use crate::{

@@ -1,6 +1,6 @@
 //! What is left of a step that is too short to be taken as one: importers that subtract times leave such remainders.
 
-use super::super::{coordinates::Parts, matrix::dot, state::Underway};
+use super::super::{coordinates::Parts, products::dot, state::Underway};
 use super::Scratch;
 
 impl Scratch {
@@ -12,7 +12,7 @@ impl Scratch {
         let laws = self.laws.first().unwrap_or(&system.laws);
         let [now, ..] = &mut self.relative;
         sight.relative(&state.motion, now);
-        let [acting, ..] = &mut self.powers;
+        let acting = &mut self.powers[..m + d];
         acting[..m].copy_from_slice(&self.loads[0][..m]);
         laws.forces(system, &state.memory, now, &mut acting[m..]);
         let (r, velocity) = now.split_at(d);

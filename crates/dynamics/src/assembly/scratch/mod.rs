@@ -8,8 +8,8 @@ use super::{
     coordinates::Sight,
     ladder::Rung,
     lobatto::{NODES, THETA, WEIGHTS, legendre_coefficients, powers},
-    matrix::dot,
     preload::LawsAt,
+    products::dot,
     propagator::{Blocks, MOMENTS, POWERS},
     stages::{LATER, Stages},
     state::Underway,
@@ -58,14 +58,18 @@ pub(super) struct Scratch {
     free: Vec<f64>,
     /// Forces at the nodes.
     forces: Vec<f64>,
-    /// Loads and forces as powers of time.
-    powers: [Vec<f64>; POWERS],
+    /// Loads and forces as powers of time, power by power.
+    powers: Vec<f64>,
+    /// ∫ x dθ of the displacements under loads and of laws, and the integrals over it, place by place.
+    moments: Vec<f64>,
     /// What each law that knows time remembers at the nodes, as it goes from one to the next.
     trails: Vec<Trail>,
     /// What may be missing of the forces, polynomial by polynomial of Legendre.
     missing: [Vec<f64>; NODES],
     /// ∂f/∂r and ∂f/∂ṙ of each law.
     tangents: Vec<[f64; 2]>,
+    /// (r, ṙ) at a node as a sweep finds it.
+    next: Vec<f64>,
     /// Largest (r, ṙ) at the nodes, and what the latest sweep changed of them.
     sizes: Vec<f64>,
     changes: Vec<f64>,
@@ -92,10 +96,12 @@ impl Scratch {
             relative: std::array::from_fn(|_| vec![0.0; 2 * d]),
             free: vec![0.0; LATER * 2 * d],
             forces: vec![0.0; NODES * d],
-            powers: std::array::from_fn(|_| vec![0.0; m + d]),
+            powers: vec![0.0; POWERS * (m + d)],
+            moments: vec![0.0; MOMENTS * (m + d)],
             trails: vec![Trail::AT_REST; system.timed.len()],
             missing: std::array::from_fn(|_| vec![0.0; d]),
             tangents: vec![[0.0; 2]; d],
+            next: vec![0.0; 2 * d],
             sizes: vec![0.0; 2 * d],
             changes: vec![0.0; 2 * d],
             corners: Vec::new(),
@@ -161,9 +167,9 @@ impl Scratch {
             sight,
             rung,
         } = means;
-        let m = system.loads;
-        for (power, loads) in self.powers.iter_mut().zip(&self.loads) {
-            power[..m].copy_from_slice(&loads[..m]);
+        let (m, d) = (system.loads, system.forces());
+        for (power, loads) in self.loads.iter().enumerate() {
+            self.powers[power * (m + d)..][..m].copy_from_slice(&loads[..m]);
         }
         let Some(stages) = &rung.stages else {
             return Some(0.0);
@@ -183,7 +189,7 @@ impl Scratch {
         stages
             .by_state
             .add_product_to(&before.motion, &mut self.free);
-        for (block, power) in stages.by_loads.iter().zip(&self.powers) {
+        for (block, power) in stages.by_loads.iter().zip(self.powers.chunks(m + d)) {
             if is_there(&power[..m]) {
                 block.add_product_to(&power[..m], &mut self.free);
             }
@@ -202,10 +208,10 @@ impl Scratch {
     pub(super) fn hold_forces(&mut self, system: &System, before: &Underway) {
         let (m, d) = (system.loads, system.forces());
         let [begin, ..] = at_nodes(system, &self.laws);
-        let [held, others @ ..] = &mut self.powers;
+        let (held, others) = self.powers.split_at_mut(m + d);
         begin.forces(system, &before.memory, &self.relative[0], &mut held[m..]);
-        for power in others {
-            power[m..m + d].fill(0.0);
+        for power in others.chunks_mut(m + d) {
+            power[m..].fill(0.0);
         }
     }
 
@@ -243,9 +249,11 @@ impl Scratch {
             }
             for (node, laws) in later.iter().enumerate() {
                 let relative = &mut self.relative[node + 1];
+                let free = &self.free[node * 2 * d..(node + 1) * 2 * d];
+                self.next.copy_from_slice(free);
+                stages.by_forces[node].add_product_to(&self.forces, &mut self.next);
                 for (row, own) in relative.iter_mut().enumerate() {
-                    let place = node * 2 * d + row;
-                    let next = self.free[place] + dot(stages.by_forces.row(place), &self.forces);
+                    let next = self.next[row];
                     self.changes[row] = self.changes[row].max((next - *own).abs());
                     self.sizes[row] = self.sizes[row].max(next.abs());
                     *own = next;
@@ -296,7 +304,7 @@ impl Scratch {
         let (m, d) = (system.loads, system.forces());
         for i in 0..d {
             let a = legendre_coefficients(std::array::from_fn(|node| self.forces[node * d + i]));
-            for (own, power) in self.powers.iter_mut().zip(powers(a)) {
+            for (own, power) in self.powers.chunks_mut(m + d).zip(powers(a)) {
                 own[m + i] = power;
             }
             let [_, a1, a2, a3, a4] = a.map(f64::abs);
@@ -336,9 +344,7 @@ impl Scratch {
         let whole = &means.rung.whole;
         let end = &mut self.state.motion;
         whole.state.go_on(&before.motion, end);
-        for (block, power) in whole.by.iter().zip(&self.powers) {
-            block.add_rows_to(power, end);
-        }
+        whole.by.add_rows_to(&self.powers, end);
         // to the last digit where the next step begins, so that what slides is on its corner
         means.sight.relative(end, &mut self.relative[LATER]);
         self.count(means, before);
@@ -353,6 +359,16 @@ impl Scratch {
         } = means;
         let h = rung.length_s;
         let (m, d) = (system.loads, system.forces());
+        if is_there(&self.powers[m + d..]) {
+            self.moments.fill(0.0);
+            let Blocks {
+                moments,
+                moments_by,
+                ..
+            } = &rung.whole;
+            moments.add_product_to(&before.motion, &mut self.moments);
+            moments_by.add_product_to(&self.powers, &mut self.moments);
+        }
         let [begin, .., end] = &self.relative;
         // what joints have seen already, and what loads see
         let ends = |p: usize| match p.checked_sub(m) {
@@ -361,12 +377,12 @@ impl Scratch {
         };
         // ∫ wᵀ dx = [wᵀ x] − ∫ (dw/dθ)ᵀ x dθ, with ∫ θ x dθ = z₁ − z₂, ∫ θ² x dθ = z₁ − 2z₂ + 2z₃, …
         let work = |p: usize| {
-            let [w0, w1, w2, w3, w4] = self.powers.each_ref().map(|power| power[p]);
+            let [w0, w1, w2, w3, w4] = std::array::from_fn(|k| self.powers[k * (m + d) + p]);
             let [from, to] = ends(p);
             if [w1, w2, w3, w4] == [0.0; POWERS - 1] {
                 return w0 * (to - from);
             }
-            let [z1, z2, z3, z4] = self.moments_of(&rung.whole, &before.motion, p);
+            let [z1, z2, z3, z4] = std::array::from_fn(|k| self.moments[MOMENTS * p + k]);
             let end = w0 + w1 + 0.5 * w2 + w3 / 6.0 + w4 / 24.0;
             let linear = z1 - z2;
             let quadratic = z1 - 2.0 * (z2 - z3);
@@ -396,15 +412,6 @@ impl Scratch {
         }
         self.state.supplied_j = before.supplied_j + supplied;
         self.state.balance_j = before.balance_j + heat;
-    }
-
-    /// ∫ x dθ of the displacement under a load or of a law, and the integrals over it.
-    fn moments_of(&self, whole: &Blocks, motion: &[f64], p: usize) -> [f64; MOMENTS] {
-        std::array::from_fn(|moment| {
-            let by = whole.moments_by[moment].iter().zip(&self.powers);
-            let forced: f64 = by.map(|(block, power)| dot(block.row(p), power)).sum();
-            dot(whole.moments[moment].row(p), motion) + forced
-        })
     }
 }
 

@@ -66,6 +66,14 @@ pub(super) fn stay(calculated: Calculated<'_>, values: &mut Values, stayed: &Sta
     }
 }
 
+/// Takes it that the preloads stay where they are.
+pub(super) fn stay_for_good(calculated: Calculated<'_>, values: &mut Values) {
+    let first = calculated.file.assembly.laws().count();
+    for [_, steps, ..] in values.memories_mut().iter_mut().skip(first) {
+        *steps = STEPS_TO_STAY;
+    }
+}
+
 /// Preloads (N·m) of the joints that follow one, at which the linear part of a step is propagated.
 pub(super) fn about_n_m(calculated: Calculated<'_>, values: &Values, is_held: bool) -> Vec<f64> {
     let assembly = &calculated.file.assembly;

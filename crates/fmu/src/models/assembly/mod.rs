@@ -9,6 +9,8 @@ mod places;
 
 pub(crate) use layout::AssemblyLayout;
 
+use std::sync::Arc;
+
 use bolted_joint_dynamics::{
     DofMemory, Dual, JointLaw, SPACE_COUNT,
     assembly::{AssemblyCoordinates, Underway},
@@ -24,7 +26,7 @@ use crate::{
 use calculated::Calculated;
 use lengths::Lengths;
 use memory::Stayed;
-use places::Places;
+use places::{Place, Places};
 
 /// Parts of a step at whose ends it is looked whether a preload is still within its table.
 const PARTS: u32 = 8;
@@ -168,6 +170,52 @@ impl AssemblyModel {
         })
     }
 
+    /// Moves the state on over a step, about these preloads (N·m). Returns the place in which it goes on, and whether the step was
+    /// too long for the joints.
+    fn go_on(
+        &mut self,
+        values: &mut Values,
+        step: Step,
+        inputs: &InputCourse,
+        about_n_m: &[f64],
+    ) -> Result<(Arc<Place>, bool), Refusal> {
+        self.take_memory(values);
+        if !places::are_about(about_n_m, &self.layout, values) {
+            // from one place to another by the states
+            self.places.settle(&self.file, &self.layout, values);
+        }
+        let place = self.places.of(&self.file, about_n_m);
+        if !place.take(&self.layout, values, &mut self.state) {
+            place.enter(&self.layout, values, &mut self.state);
+        }
+        let steps = self.lengths.of(&place, step)?;
+        let h = steps.length_s();
+        let (first, listed) = (self.layout.loads.start, values.listed());
+        let course = |power: usize, load: usize| {
+            let place = first + load;
+            match power.checked_sub(1) {
+                None => listed[place],
+                // wₖ = hᵏ dᵏu/dtᵏ
+                Some(order) => {
+                    let derivatives = inputs.derivatives(FIRST_LISTED + place);
+                    derivatives[order] * h.powi(order as i32 + 1)
+                }
+            }
+        };
+        steps.step_along(&mut self.state, course);
+        let was_too_long = steps.was_too_long();
+        if h != step.interval_s {
+            let end = |load: usize| {
+                let [w0, w1, w2, w3] = [0, 1, 2, 3].map(|power| course(power, load));
+                w0 + w1 + w2 / 2.0 + w3 / 6.0
+            };
+            steps.creep(&mut self.state, step.interval_s - h, |power, load| {
+                if power == 0 { end(load) } else { 0.0 }
+            });
+        }
+        Ok((place, was_too_long))
+    }
+
     /// Name of the state at this place: coordinates, rates, energies.
     fn state_name(&self, place: usize) -> Name {
         let size = self.layout.coordinates.len();
@@ -216,39 +264,11 @@ impl Model for AssemblyModel {
                 .collect(),
         };
         let about_n_m = memory::about_n_m(self.calculated(&[]), values, is_held);
-        self.take_memory(values);
-        if !places::are_about(&about_n_m, &self.layout, values) {
-            // from one place to another by the states
-            self.places.settle(&self.file, &self.layout, values);
-        }
-        let place = self.places.of(&self.file, &about_n_m);
-        if !place.take(&self.layout, values, &mut self.state) {
-            place.enter(&self.layout, values, &mut self.state);
-        }
-        let steps = self.lengths.of(&place, step)?;
-        let h = steps.length_s();
-        let (first, listed) = (self.layout.loads.start, values.listed());
-        let course = |power: usize, load: usize| {
-            let place = first + load;
-            match power.checked_sub(1) {
-                None => listed[place],
-                // wₖ = hᵏ dᵏu/dtᵏ
-                Some(order) => {
-                    let derivatives = inputs.derivatives(FIRST_LISTED + place);
-                    derivatives[order] * h.powi(order as i32 + 1)
-                }
-            }
-        };
-        steps.step_along(&mut self.state, course);
-        let was_too_long = steps.was_too_long();
-        if h != step.interval_s {
-            let end = |load: usize| {
-                let [w0, w1, w2, w3] = [0, 1, 2, 3].map(|power| course(power, load));
-                w0 + w1 + w2 / 2.0 + w3 / 6.0
-            };
-            steps.creep(&mut self.state, step.interval_s - h, |power, load| {
-                if power == 0 { end(load) } else { 0.0 }
-            });
+        let (mut place, mut was_too_long) = self.go_on(values, step, inputs, &about_n_m)?;
+        // what is too stiff for a step beside the linear part may be no trouble in it
+        let is_about_its_own = was_too_long && is_held && about_n_m != ended_n_m;
+        if is_about_its_own {
+            (place, was_too_long) = self.go_on(values, step, inputs, &ended_n_m)?;
         }
         self.check_end(&place.coordinates, step.time_s + step.interval_s)?;
         if was_too_long {
@@ -260,6 +280,9 @@ impl Model for AssemblyModel {
         place.put(&self.layout, &self.state, values);
         self.write_memory(values);
         memory::stay(self.calculated(&[]), values, &Stayed::Ended(ended_n_m));
+        if is_about_its_own {
+            memory::stay_for_good(self.calculated(&[]), values);
+        }
         Ok(None)
     }
 

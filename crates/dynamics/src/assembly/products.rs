@@ -1,0 +1,94 @@
+//! Sums of products, which is what most of a step of an assembly is: several rows at a time, so that no sum waits for the one
+//! before, and what they share is read once.
+
+/// Terms of a sum that stand side by side.
+const LANES: usize = 4;
+
+/// Σ aᵢ bᵢ
+#[inline]
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let ((a, rest_of_a), (b, rest_of_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let rest: f64 = rest_of_a.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// Σ aᵢ xᵢ of several rows a, all of them of the length of x. Each is the same to the bit as by itself.
+#[inline]
+pub(super) fn dots<const ROWS: usize>(rows: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
+    let sums = sums(
+        rows.map(|row| row[..x.len()].as_chunks().0),
+        x.as_chunks().0,
+    );
+    let whole = x.len() - x.len() % LANES;
+    std::array::from_fn(|row| {
+        let [first, second, third, fourth] = sums[row];
+        let rest = rows[row][whole..].iter().zip(&x[whole..]);
+        let rest: f64 = rest.map(|(own, x)| own * x).sum();
+        (first + second) + (third + fourth) + rest
+    })
+}
+
+/// The sums of each row, lane by lane. By itself, so that the lanes are what the compiler does at once, and not the rows.
+#[inline(never)]
+fn sums<const ROWS: usize>(
+    rows: [&[[f64; LANES]]; ROWS],
+    x: &[[f64; LANES]],
+) -> [[f64; LANES]; ROWS] {
+    let rows = rows.map(|row| &row[..x.len()]);
+    let mut sums = [[0.0; LANES]; ROWS];
+    for (place, x) in x.iter().enumerate() {
+        for (sums, row) in sums.iter_mut().zip(rows) {
+            for (sum, (own, x)) in sums.iter_mut().zip(row[place].iter().zip(x)) {
+                *sum += own * x;
+            }
+        }
+    }
+    sums
+}
+
+/// Adds Σ factor · row to `sum`, term by term in their order.
+#[inline]
+pub(super) fn add_rows<const ROWS: usize>(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+    let size = sum.len();
+    let terms = terms.map(|(factor, row)| (factor, &row[..size]));
+    for (place, sum) in sum.iter_mut().enumerate() {
+        for (factor, row) in terms {
+            *sum += factor * row[place];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    /// What slides is on its corner to the bit, whichever way its motion was summed.
+    #[test]
+    fn several_rows_give_the_bits_of_each_by_itself() {
+        let mut random = Random(11);
+        for size in [0, 1, 3, 4, 7, 31, 424] {
+            let mut row = || -> Vec<f64> { (0..size).map(|_| 2.0 * random.unit() - 1.0).collect() };
+            let (x, rows) = (row(), [row(), row(), row()]);
+            let each = dots(rows.each_ref().map(Vec::as_slice), &x);
+            for (row, own) in rows.iter().zip(each) {
+                assert_eq!(dot(row, &x).to_bits(), own.to_bits(), "{size}");
+                let plain: f64 = row.iter().zip(&x).map(|(a, b)| a * b).sum();
+                assert!((own - plain).abs() < 1e-13, "{size}");
+            }
+            let (mut together, mut one_by_one) = (x.clone(), x.clone());
+            let terms = [(0.3, &rows[0][..]), (-1.7, &rows[1]), (2.9, &rows[2])];
+            add_rows(terms, &mut together);
+            for term in terms {
+                add_rows([term], &mut one_by_one);
+            }
+            assert_eq!(together, one_by_one, "{size}");
+        }
+    }
+}

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use bolted_joint_testing::{close, has};
 
 use bolted_joint::identify::lap::{
-    LapResponse, LapResponseStudy, ResponseUnknown, SliderParameter,
+    Estimate, InTime, LapResponse, LapResponseStudy, ResponseUnknown, SliderParameter,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -108,7 +108,14 @@ impl Records {
     }
 
     /// A study of these, in its folder, with noise of its own; `terms` are as a study has them.
-    fn study(&self, terms: &str, (seed, noise): (u64, f64)) -> (TempDir, LapResponseStudy) {
+    fn study(&self, terms: &str, noise: (u64, f64)) -> (TempDir, LapResponseStudy) {
+        let folder = self.written(terms, noise);
+        let study = LapResponseStudy::read(&folder.path().join("study.toml"));
+        (folder, study.unwrap_or_else(|error| panic!("{error}")))
+    }
+
+    /// The same before it is read.
+    fn written(&self, terms: &str, (seed, noise): (u64, f64)) -> TempDir {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let folder = tempfile::tempdir().unwrap();
         for (name, samples) in [("fitted", &self.fitted), ("left-out", &self.left_out)] {
@@ -126,11 +133,15 @@ impl Records {
              [[decay]]\nfile = \"left-out.csv\"\nuse = \"predict\"\n",
             2.0 * MASS
         );
-        let path = folder.path().join("study.toml");
-        std::fs::write(&path, study).unwrap();
-        let study = LapResponseStudy::read(&path).unwrap_or_else(|error| panic!("{error}"));
-        (folder, study)
+        std::fs::write(folder.path().join("study.toml"), study).unwrap();
+        folder
     }
+}
+
+fn of(found: &LapResponse, parameter: SliderParameter) -> &Estimate {
+    let unknown = ResponseUnknown::Slider(parameter);
+    let mut all = found.estimates.iter();
+    all.find(|own| own.unknown == unknown).unwrap()
 }
 
 fn identified(study: &LapResponseStudy) -> LapResponse {
@@ -334,26 +345,84 @@ fn a_law_that_is_wrong_for_a_decay_is_said() {
     assert!(residual.lines == all_lines(&found) && residual.relative_rms > 0.0);
 }
 
-/// A narrow band asks for a long window, which a quick beginning does not outlast.
+/// A narrow band asks for a long window, which a quick beginning does not outlast. Fitted sample by sample nothing of it is lost,
+/// as little as without a band.
 #[test]
 fn a_beginning_that_is_not_read_is_said() {
     let records = Records::of(&vec![[0.3 * K0, 0.2 * LARGEST_M]], [1.0, LEFT_OUT]);
     let (folder, study) = records.study("\"jenkins\"", (1, 0.002));
-    let told = |study: &LapResponseStudy| identified(study).warnings(study).join("\n");
     let says = "of what the record begins with: nothing is known of larger ones";
-    // sample by sample nothing of it is lost
-    let whole = told(&study);
-    assert!(!whole.contains(says), "{whole}");
     let path = folder.path().join("study.toml");
-    let text = std::fs::read_to_string(&path).unwrap();
-    let banded = text.replacen(
+    let plain = std::fs::read_to_string(&path).unwrap();
+    let banded = plain.replacen(
         "file = \"fitted.csv\"",
         "file = \"fitted.csv\"\nband = [80, 150]",
         1,
     );
+    let told = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        let study = LapResponseStudy::read(&path).unwrap();
+        let found = identified(&study);
+        let stiffness = of(&found, SliderParameter::Stiffness).value;
+        (found.warnings(&study).join("\n"), stiffness)
+    };
+    assert!(
+        !identified(&study)
+            .warnings(&study)
+            .join("\n")
+            .contains(says)
+    );
+    let (warnings, stiffness) = told(&banded);
+    assert!(!warnings.contains(says), "{warnings}");
+    close(stiffness, 0.3 * K0, 0.02);
+    // errors that are stated are of what is read, and so is the fit
+    let stated =
+        "[noise]\nfrequency = 1e-3\ndamping = 0.02\n[[decay]]\nfile = \"fitted.csv\"\nband";
+    let (warnings, _) = told(&banded.replacen("[[decay]]\nfile = \"fitted.csv\"\nband", stated, 1));
+    has(&warnings, &[says, "make `band` as wide as"]);
+}
+
+/// Two other modes beside it, which the record has from its beginning: within a band the law is found as without them.
+#[test]
+fn other_modes_are_taken_out_of_a_record() {
+    let mut records = Records::of(&vec![[0.2 * K0, 0.3 * LARGEST_M]], [1.0, LEFT_OUT]);
+    let (folder, study) = records.study("\"jenkins\"", (3, 0.002));
+    let alone = identified(&study);
+    drop(folder);
+    for (n, value) in records.fitted.iter_mut().enumerate() {
+        let time_s = INTERVAL_S * n as f64;
+        for (part, hz, ratio, phase) in [(0.5, 61.0, 0.004, 0.4), (0.3, 233.0, 0.006, -1.1)] {
+            let omega = std::f64::consts::TAU * hz;
+            *value +=
+                part * LARGEST_M * (-ratio * omega * time_s).exp() * (omega * time_s + phase).cos();
+        }
+    }
+    let folder = records.written("\"jenkins\"", (3, 0.002));
+    let path = folder.path().join("study.toml");
+    let plain = std::fs::read_to_string(&path).unwrap();
+    let banded = plain.replacen("\"fitted.csv\"", "\"fitted.csv\"\nband = [85, 150]", 1);
     std::fs::write(&path, banded).unwrap();
     let study = LapResponseStudy::read(&path).unwrap();
-    has(&told(&study), &[says, "make `band` as wide as"]);
+    let found = identified(&study);
+    assert_eq!(found.in_time, InTime::Fitted, "{:?}", found.in_time);
+    for (parameter, truth) in [
+        (SliderParameter::Stiffness, 0.2 * K0),
+        (SliderParameter::SlipForce, 0.2 * K0 * 0.3 * LARGEST_M),
+    ] {
+        let Estimate {
+            value,
+            standard_deviation,
+            ..
+        } = of(&found, parameter);
+        let error = (value - truth) / standard_deviation;
+        assert!(error.abs() < 3.5, "{parameter:?}: {error}");
+        // what the other modes take is little
+        let without = of(&alone, parameter).standard_deviation;
+        assert!(
+            *standard_deviation < 2.0 * without,
+            "{parameter:?}: {without}"
+        );
+    }
 }
 
 fn all_lines(found: &LapResponse) -> usize {

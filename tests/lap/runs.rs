@@ -72,6 +72,34 @@ fn found(seed: u64, fitted: usize, of_run: [f64; 2], fifth: f64) -> LapResponse 
     LapResponse::of(&LapResponseStudy::read(&path).unwrap(), &|| {}).unwrap()
 }
 
+/// 0.5 in a table of per cent is 50 %, and nothing refuses it.
+#[test]
+fn ratios_that_may_be_per_cent_are_told() {
+    let told = |times: f64| {
+        let folder = tempfile::tempdir().unwrap();
+        let mut csv = "frequency_hz,displacement_m,damping_ratio\n".to_owned();
+        for place in 0..8 {
+            let amplitude = 1e-5 * f64::from(1 + place);
+            let ratio = times * (0.004 + 1e-4 * f64::from(place));
+            writeln!(csv, "{},{amplitude:e},{ratio:e}", 100 - place).unwrap();
+        }
+        std::fs::write(folder.path().join("run.csv"), csv).unwrap();
+        let study = "method = \"lap-response\"\nname = \"x\"\n[model]\ndrive = \"relative\"\nresponse = \"relative\"\n\
+                     terms = [\"k3\"]\ncompare = false\n[known]\nm = 2\n[[backbone]]\nfile = \"run.csv\"\n";
+        let path = folder.path().join("study.toml");
+        std::fs::write(&path, study).unwrap();
+        let study = LapResponseStudy::read(&path).unwrap();
+        let found = LapResponse::of(&study, &|| {}).unwrap();
+        found.warnings(&study).join("\n")
+    };
+    let says = "run.csv: damping ratios up to 0.47";
+    has(
+        &told(100.0),
+        &[says, "if they are per cent, divide them by 100"],
+    );
+    assert!(!told(1.0).contains("per cent"));
+}
+
 /// Shares of the frequencies and damping ratios of runs left out that lie in their intervals.
 fn held(draws: u64, fitted: usize, of_run: [f64; 2]) -> [f64; 2] {
     let (mut all, mut inside) = (0.0, [0.0; 2]);

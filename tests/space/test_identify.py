@@ -160,9 +160,14 @@ def test_a_model_that_is_too_simple_is_told(run, tmp_path):
         rig = Rig(stiffness, 2e-5 * stiffness)
         rows = [rig.rows(side, (rng, 1e-3, 0.01745, 0.01)) for side in range(2)]
         rig.write(tmp_path, FREQUENCIES[::3], noise=0.01, rng=rng, rows=rows, more=budget, model='model = "bolt"')
-        done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--report", tmp_path / "r.html", "--json")
+        is_true = second == 2e7
+        done = run(
+            "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--report", tmp_path / "r.html", "--json",
+            expect=0 if is_true else 3,
+        )
         assert json.loads(done.stdout)["reduced_chi_squared"] < 1.1
         told.append("a joint of all numbers would fit better" in done.stderr)
+        assert ("the joint is not what its model says" in done.stderr) != is_true
         assert told[-1] == ("a joint of all numbers would fit better" in (tmp_path / "r.html").read_text(encoding="utf-8"))
     assert told == [False, True]
 
@@ -278,6 +283,35 @@ def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impac
     if done.stdout:
         (misfit,) = json.loads(done.stdout)["misfits"]
         assert misfit["key"] == key and ", ".join(misfit["dofs"]) == dofs
+
+
+@pytest.mark.parametrize(
+    "side, of_impacts, pair, keys, dofs",
+    [
+        (0, False, [1, 5], ["a.sensors[0]", "a.sensors[1]"], ["100:+Y", "101:+Z"]),
+        (1, False, [6, 7], ["b.sensors[2]", "b.sensors[2]"], ["202:+X", "202:+Y"]),
+        (1, True, [2, 7], ["b.impacts[2]", "b.impacts[7]"], ["252:+X", "257:+X"]),
+    ],
+)
+@pytest.mark.parametrize("budget", [EXACT, "budget = { position = 1e-3, rotation = 0.01745, gain = 0.01 }\n"])
+@pytest.mark.long
+def test_what_is_exchanged_is_named(program, tmp_path, side, of_impacts, pair, keys, dofs, budget):
+    """Two cables in each other's place, or two hits in each other's row; the same in all files."""
+    rig, rng = Rig(K, C), np.random.default_rng(9)
+    errors = () if budget == EXACT else ((rng, 1e-3, 0.01745, 0.01),)
+    rows = [rig.rows(0, *errors), rig.rows(1, *errors)]
+    rows[side][of_impacts][pair] = rows[side][of_impacts][pair[::-1]]
+    rig.write(tmp_path, FREQUENCIES[::6], noise=0.002, rng=rng, rows=rows, more=budget)
+    command = [program, "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    assert done.returncode in (1, 3), done.stderr
+    warnings = [line for line in done.stderr.splitlines() if "exchange them" in line]
+    assert len(warnings) == 1, done.stderr
+    one, other = [f"{key} ({dof})" for key, dof in zip(keys, dofs)]
+    assert warnings[0].startswith(f"warning: {one} does not fit the others, nor does {other}, and each would")
+    if done.stdout:
+        (misfit,) = json.loads(done.stdout)["misfits"]
+        assert misfit["exchanged_with"] == {"key": keys[1], "dofs": [dofs[1]]} and misfit["ratio"] is None
 
 
 @pytest.mark.parametrize(

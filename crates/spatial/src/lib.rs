@@ -58,7 +58,7 @@ pub use error::SpatialError;
 pub use identification::{
     FunctionFit, Group, SetUpError, SpatialIdentification, Substructures, Unknown,
 };
-pub use misfits::Misfit;
+pub use misfits::{Misfit, MisfitCause};
 pub use problem::Level;
 pub use study::SpatialStudy;
 // what its errors and indicators are told by

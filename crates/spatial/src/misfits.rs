@@ -29,22 +29,47 @@ pub struct Misfit {
     pub key: String,
     /// Its DOFs in the functions.
     pub dofs: Vec<Dof>,
-    /// What does not fit that goes with it, over what stays, each by its degrees of freedom: about 1 for noise.
-    pub ratio: f64,
-    /// By which gain, shift or rotation it would fit.
-    pub diagnosis: Diagnosis,
+    /// What is wrong with it.
+    pub cause: MisfitCause,
+}
+
+/// What is wrong with a place that does not fit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MisfitCause {
+    /// It would fit with another gain, shift or rotation.
+    Errs {
+        /// What does not fit that goes with it, over what stays, each by its degrees of freedom: about 1 for noise.
+        ratio: f64,
+        /// By which gain, shift or rotation it would fit.
+        diagnosis: Diagnosis,
+    },
+    /// It stands in the place of another.
+    Exchanged {
+        /// The other's key in the study.
+        key: String,
+        /// The other's DOFs in the functions.
+        dofs: Vec<Dof>,
+    },
 }
 
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let dofs: Vec<String> = self.dofs.iter().map(Dof::to_string).collect();
-        write!(
-            f,
-            "{} ({}) does not fit the others, {}: check its direction, sign, position and gain",
-            self.key,
-            dofs.join(", "),
-            self.diagnosis
-        )
+        let named = |dofs: &[Dof]| {
+            let dofs: Vec<String> = dofs.iter().map(Dof::to_string).collect();
+            dofs.join(", ")
+        };
+        write!(f, "{} ({})", self.key, named(&self.dofs))?;
+        match &self.cause {
+            MisfitCause::Errs { diagnosis, .. } => write!(
+                f,
+                " does not fit the others, {diagnosis}: check its direction, sign, position and gain"
+            ),
+            MisfitCause::Exchanged { key, dofs } => write!(
+                f,
+                " does not fit the others, nor does {key} ({}), and each would in the place of the other: exchange them",
+                named(dofs)
+            ),
+        }
     }
 }
 
@@ -91,6 +116,20 @@ fn misfit(
         .map(|line| line.view((0, 0), (near[0], near[1])).into_owned())
         .collect();
     let point = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal)?;
+    if let Some(pair) = point.exchanged(role, &lines)? {
+        let [one, other] = pair.map(|row| match role {
+            Role::Channel => Place::Channel(row),
+            Role::Impact => Place::Impact(row),
+        });
+        return Ok(Some(Misfit {
+            key: placed.key(one),
+            dofs: dofs(side, set_up, one),
+            cause: MisfitCause::Exchanged {
+                key: placed.key(other),
+                dofs: dofs(side, set_up, other),
+            },
+        }));
+    }
     let Some(suspects) = point.suspects(role, &lines)? else {
         return Ok(None);
     };
@@ -114,8 +153,10 @@ fn misfit(
     Ok(bad.map(|suspect| Misfit {
         key: placed.key(suspect.place),
         dofs: dofs(side, set_up, suspect.place),
-        ratio: suspect.ratio,
-        diagnosis: suspect.diagnosis,
+        cause: MisfitCause::Errs {
+            ratio: suspect.ratio,
+            diagnosis: suspect.diagnosis,
+        },
     }))
 }
 

@@ -52,6 +52,7 @@ mod consistency;
 mod covariance;
 mod diagnosis;
 mod error;
+mod exchanged;
 mod likely;
 mod noise;
 mod place;

@@ -6,8 +6,8 @@ use serde_json::json;
 
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::space::{
-    Change, Misfit, Role, SideConsistency, SpatialIdentification, SpatialStudy, Unknown,
-    joints_sought,
+    Change, Misfit, MisfitCause, Role, SideConsistency, SpatialIdentification, SpatialStudy,
+    Unknown, joints_sought,
 };
 use bolted_joint::report::{SpatialReport, spatial_figure};
 use bolted_joint::study::StudyText;
@@ -126,7 +126,17 @@ fn as_json(
         "misfits": misfits.iter().map(|misfit| json!({
             "key": misfit.key,
             "dofs": misfit.dofs.iter().map(ToString::to_string).collect::<Vec<_>>(),
-            "ratio": misfit.ratio,
+            "ratio": match &misfit.cause {
+                MisfitCause::Errs { ratio, .. } => Some(ratio),
+                MisfitCause::Exchanged { .. } => None,
+            },
+            "exchanged_with": match &misfit.cause {
+                MisfitCause::Errs { .. } => None,
+                MisfitCause::Exchanged { key, dofs } => Some(json!({
+                    "key": key,
+                    "dofs": dofs.iter().map(ToString::to_string).collect::<Vec<_>>(),
+                })),
+            },
             "text": misfit.to_string(),
         })).collect::<Vec<_>>(),
         "consistency": consistency.iter().map(|one| json!({

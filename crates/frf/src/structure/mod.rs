@@ -15,7 +15,7 @@ pub use beam::{Beam, BeamModes, BeamPoint, Boundary, Damping, ModalBeam, Motion,
 pub use coupling::{Assembly, ComplexMatrix, Partition, SingularAssembly, couple, transmission};
 pub use error::StructureError;
 pub use matrices::NamedMatrices;
-pub use modal::{ModalModel, Mode};
+pub use modal::{ModalModel, Mode, large_damping_ratio};
 pub use rotation::{Difference, FiniteDifference, Order};
 pub use section::Section;
 pub use space_beam::{SpaceBeam, SpacePoint};

@@ -1,5 +1,6 @@
 //! What the reader of a lap model identified from responses should know before using it.
 
+use bolted_joint_frf::structure::large_damping_ratio;
 use num_complex::Complex64;
 
 use super::data::Use;
@@ -38,6 +39,7 @@ impl LapResponse {
     #[must_use]
     pub fn warnings(&self, study: &LapResponseStudy) -> Vec<String> {
         let mut warnings = study.repeats.found.clone();
+        warnings.extend(of_damping(study));
         let open = self.not_identified();
         if !open.is_empty() {
             warnings.push(format!(
@@ -233,6 +235,17 @@ impl LapResponse {
             _ => None,
         }
     }
+}
+
+/// Tables of damping ratios that hardly let a lap swing.
+fn of_damping(study: &LapResponseStudy) -> Vec<String> {
+    let tables = study.backbones.iter().filter(|run| run.recorded.is_none());
+    let told = tables.filter_map(|run| {
+        let ratios = run.lines.iter().filter_map(|line| line.damping_ratio);
+        let told = large_damping_ratio(ratios.fold(0.0, f64::max))?;
+        Some(format!("{}: {told}", run.name))
+    });
+    told.collect()
 }
 
 /// Records whose beginning is not read: a window as long as a narrow band asks for is over before a quick decay is.

@@ -65,18 +65,22 @@ pub struct ModalModel {
 /// Damping ratio from which on it may be meant in per cent: a bolted structure has less than a hundredth.
 const LARGE_RATIO: f64 = 0.2;
 
-/// A word on modes that hardly swing.
-fn of_damping(modes: &[Mode]) -> Option<String> {
-    let largest = modes
-        .iter()
-        .map(|mode| mode.damping_ratio)
-        .fold(0.0, f64::max);
+/// A word on damping ratios of which the largest is such that nothing of that kind swings as a bolted structure does; `None` for
+/// others.
+#[must_use]
+pub fn large_damping_ratio(largest: f64) -> Option<String> {
     (LARGE_RATIO..1.0).contains(&largest).then(|| {
         format!(
             "damping ratios up to {largest} are taken as parts of the critical damping, {:.0} %: if they are per cent, divide them by 100",
             100.0 * largest
         )
     })
+}
+
+/// The same of modes that hardly swing.
+fn of_damping(modes: &[Mode]) -> Option<String> {
+    let ratios = modes.iter().map(|mode| mode.damping_ratio);
+    large_damping_ratio(ratios.fold(0.0, f64::max))
 }
 
 impl ModalModel {

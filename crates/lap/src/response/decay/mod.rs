@@ -9,6 +9,7 @@ mod errors;
 mod in_time;
 mod motion;
 mod one_mode;
+mod others;
 mod recorded;
 mod simulated;
 mod spectrum;
@@ -112,6 +113,11 @@ pub(super) fn backbone_of(
         let read = signal(&course[..read.count()]);
         read.leaves_noise(&record, order, spectrum.noise)?;
     }
+    let others = band_hz.map_or(Some(Vec::new()), |band_hz| {
+        let read = course.iter().take_while(|point| point.is_clear(of_noise));
+        let (from, own) = signal(&course[..read.count()]).samples(record.interval_s)?;
+        others::others(&record, (band_hz, omega / TAU), (from, &own))
+    });
     let lines = stretches.lines(order, share);
     if lines.len() < 2 {
         return Err(DecayProblem::TooShort(lines.len()));
@@ -133,6 +139,7 @@ pub(super) fn backbone_of(
             noise: spectrum.noise,
             read_part,
             has_band: band_hz.is_some(),
+            others,
         },
     })
 }

@@ -130,7 +130,7 @@ impl Signal<'_> {
     }
 
     /// What the mode makes of the samples from the first of its points to the last, and the first sample.
-    fn samples(&self, interval_s: f64) -> Option<(usize, Vec<f64>)> {
+    pub(super) fn samples(&self, interval_s: f64) -> Option<(usize, Vec<f64>)> {
         let logarithms = self.logarithms();
         let (first, last) = (logarithms.first()?, logarithms.last()?);
         let from = (first.0 / interval_s).ceil() as usize;

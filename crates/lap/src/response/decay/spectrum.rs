@@ -1,6 +1,7 @@
 //! Which modes a record has, and how much noise: its spectrum.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use bolted_joint_fourier::Transform;
 use num_complex::Complex64;
@@ -53,15 +54,12 @@ impl Spectrum {
     pub(super) fn only_mode(&self, band_hz: Option<[f64; 2]>) -> Result<f64, DecayProblem> {
         let place = |hz: f64| ((hz / self.step_hz).round() as usize).min(self.moduli.len());
         let [from, to] = band_hz.map_or([LOWEST, self.moduli.len()], |band| band.map(place));
-        let peaks = self.peaks(from.max(LOWEST), to);
+        let peaks = self.peaks(from.max(LOWEST)..to);
         let Some(&highest) = peaks.first() else {
             return Err(DecayProblem::NoMode);
         };
         let hz = |peak: usize| self.step_hz * peak as f64;
-        let is_harmonic = |peak: usize| {
-            let multiple = hz(peak) / hz(highest);
-            multiple > 1.5 && (multiple - multiple.round()).abs() < HARMONIC
-        };
+        let is_harmonic = |peak: usize| is_multiple(hz(peak), hz(highest));
         let mut others = peaks[1..]
             .iter()
             .copied()
@@ -73,17 +71,33 @@ impl Spectrum {
         Err(DecayProblem::Several(modes.map(hz).collect()))
     }
 
-    /// Peaks that stand out, the highest first.
-    fn peaks(&self, from: usize, to: usize) -> Vec<usize> {
+    /// Frequency of what stands out most outside of a band, beside multiples of the frequency of the mode in it, Hz.
+    pub(super) fn strongest_outside(&self, band_hz: [f64; 2], own_hz: f64) -> Option<f64> {
+        let hz = |bin: usize| self.step_hz * bin as f64;
+        let is_other = |&bin: &usize| {
+            let is_inside = hz(bin) >= band_hz[0] && hz(bin) <= band_hz[1];
+            !is_inside && !is_multiple(hz(bin), own_hz)
+        };
+        let all = (LOWEST..self.moduli.len()).filter(is_other);
+        let highest = all.max_by(|&a, &b| self.moduli[a].total_cmp(&self.moduli[b]))?;
+        (self.moduli[highest] > ABOVE_NOISE * self.median()).then(|| hz(highest))
+    }
+
+    fn median(&self) -> f64 {
         let mut sorted = self.moduli.clone();
         sorted.sort_by(f64::total_cmp);
-        let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Peaks that stand out, the highest first.
+    fn peaks(&self, range: Range<usize>) -> Vec<usize> {
+        let median = self.median();
         let floor = ABOVE_NOISE * median;
         let is_peak = |n: &usize| {
             let own = self.moduli[*n];
             own >= self.moduli[n - 1] && own > *self.moduli.get(n + 1).unwrap_or(&0.0)
         };
-        let mut candidates: Vec<usize> = (from.max(1)..to.max(from))
+        let mut candidates: Vec<usize> = (range.start.max(1)..range.end)
             .filter(|n| *n < self.moduli.len())
             .filter(is_peak)
             .collect();
@@ -107,4 +121,10 @@ impl Spectrum {
         }
         peaks
     }
+}
+
+/// Whether a frequency is a multiple of the mode's own.
+fn is_multiple(hz: f64, own_hz: f64) -> bool {
+    let multiple = hz / own_hz;
+    multiple > 1.5 && (multiple - multiple.round()).abs() < HARMONIC
 }

@@ -95,6 +95,35 @@ fn two_modes_are_told_and_a_band_takes_one_of_them() {
     assert!(none.is_err());
 }
 
+/// Beside a mode whose frequency rises by 3 % while it decays, with white noise.
+#[test]
+fn the_other_modes_of_a_band_are_known() {
+    let others = [(1.5e-4, 0.004, 61.0), (9e-5, 0.006, 233.0)];
+    let mut samples = decaying(&others, 12_000, 1e-4);
+    let (mut phase, mut seed) = (0.0, 7_u64);
+    for (time_s, value) in &mut samples {
+        let amplitude = (-3.0 * *time_s).exp();
+        phase += TAU * 110.0 * (1.03 - 0.03 * amplitude) * 1e-4;
+        let mut noise = 0.0;
+        for _ in 0..12 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            noise += (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+        }
+        *value += 3e-4 * (amplitude * phase.cos() + 0.002 * noise);
+    }
+    let read = backbone_of(&samples, Some([85.0, 150.0]), 0, 1.0, [0.0; 2]).unwrap();
+    let alone = read.recorded.alone().unwrap();
+    assert_eq!(read.recorded.beside_count(), 8);
+    // the beginning is not read, and is free of them as well
+    let own = alone
+        .values
+        .iter()
+        .zip(&samples)
+        .zip(decaying(&others, 12_000, 1e-4));
+    let off = own.map(|((alone, (_, value)), (_, others))| (alone - (value - others)).abs());
+    assert!(off.fold(0.0, f64::max) < 3e-4 * 0.01);
+}
+
 /// A second mode that fades early is hardly in the spectrum of the whole record: it makes beats, or stays beside the signal.
 #[test]
 fn a_second_mode_is_told_however_it_fades() {

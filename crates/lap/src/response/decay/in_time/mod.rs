@@ -10,9 +10,11 @@ mod search;
 mod slopes;
 mod whiteness;
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::fmt;
+use std::rc::Rc;
 
 use self::search::{Run, Search, State};
 use super::motion::{Grid, Release, sampled};
@@ -66,7 +68,7 @@ pub enum NotInTime {
     OtherData,
     /// The study states errors of what is read.
     StatedErrors,
-    /// This run has a band.
+    /// This run has a band, and what is outside of it are no modes that could be taken out.
     Band(String),
     /// This run would take so many steps.
     TooLong(String, usize),
@@ -89,7 +91,10 @@ impl fmt::Display for NotInTime {
             Self::StatedErrors => {
                 f.write_str("[noise] states errors of frequencies and damping ratios, which samples do not have")
             }
-            Self::Band(run) => write!(f, "`band` says that {run} has other modes"),
+            Self::Band(run) => write!(
+                f,
+                "`band` says that {run} has other modes, and they are too many, or no decaying ones, to be taken out"
+            ),
             Self::TooLong(run, steps) => write!(
                 f,
                 "the motion of {run} takes {steps} steps, and {MOST_STEPS} is the most"
@@ -134,6 +139,12 @@ pub(in crate::response) fn fitted(
     if study.noise_is() != NoiseIs::OfRecords {
         return Err(NotInTime::OtherData);
     }
+    let mut alone = Vec::with_capacity(runs.len());
+    for run in runs {
+        let record = run.recorded.as_deref().ok_or(NotInTime::OtherData)?;
+        let own = record.alone();
+        alone.push((*run, own.ok_or_else(|| NotInTime::Band(run.name.clone()))?));
+    }
     let grids = runs.iter().filter_map(|run| {
         let record = run.recorded.as_deref()?;
         let first = run.lines.first()?;
@@ -155,7 +166,7 @@ pub(in crate::response) fn fitted(
             continue;
         }
         let left = Cell::new(of_each);
-        let start = match Start::of((study, model), values, runs, &left) {
+        let start = match Start::of((study, model), values, &alone, &left) {
             Err(NotInTime::Lost) => continue,
             other => other?.brought_near(),
         };
@@ -217,10 +228,11 @@ impl<'a> Start<'a> {
     fn of(
         (study, model): (&'a LapResponseStudy, &'a Model),
         values: Values,
-        runs: &[&'a BackboneRun],
+        runs: &'a [(&'a BackboneRun, Cow<'a, Recorded>)],
         left: &'a Cell<usize>,
     ) -> Result<Self, NotInTime> {
-        let largest_m = runs.iter().map(|run| run.largest_m()).fold(0.0, f64::max);
+        let read = runs.iter().map(|(run, _)| run.largest_m());
+        let largest_m = read.fold(0.0, f64::max);
         let passive = Passive {
             model,
             amplitude_m: largest_m,
@@ -228,19 +240,16 @@ impl<'a> Start<'a> {
         let mut values = passive.within(values);
         if let Some(slider) = &mut values.slider {
             // samples reach from the release on, points from some periods behind it
-            let of_runs = runs.iter().map(|run| farthest_m(run));
+            let of_runs = runs.iter().map(|(run, record)| farthest_m(run, record));
             *slider = slider.about(BEYOND * of_runs.fold(0.0, f64::max));
         }
         let mut followed = Vec::new();
         let mut releases = Vec::new();
-        for run in runs {
-            let record = run.recorded.as_deref().ok_or(NotInTime::OtherData)?;
-            if record.has_band {
-                return Err(NotInTime::Band(run.name.clone()));
-            }
+        for (run, record) in runs {
             let (grid, release) = begun(&values, run, record)?;
             followed.push(Run {
                 record,
+                beside: record.beside(grid.samples).map(Rc::new),
                 grid,
                 plain: plain(run),
             });
@@ -326,9 +335,8 @@ impl<'a> Start<'a> {
 }
 
 /// The largest displacement in the samples of a run, m.
-fn farthest_m(run: &BackboneRun) -> f64 {
-    let both = run.recorded.as_deref().zip(run.lines.first());
-    let Some((record, first)) = both else {
+fn farthest_m(run: &BackboneRun, record: &Recorded) -> f64 {
+    let Some(first) = run.lines.first() else {
         return 0.0;
     };
     let derived = first.omega.powi(record.quantity.order()) * record.share.abs();

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{DVector, Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
 use num_complex::Complex64;
 
 use crate::response::decay::motion::{Grid, Release, sampled};
@@ -29,20 +29,26 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Of a lap with these values; `None` where that moves as no decay does.
+    /// Of a lap with these values, without what is in the span of `beside`, which has an offset; `None` where that moves as no decay
+    /// does.
     pub(super) fn of(
         values: &Values,
         release: Release,
-        record: &Recorded,
+        (record, beside): (&Recorded, Option<&DMatrix<f64>>),
         grid: &Grid,
     ) -> Option<Self> {
         let own = sampled(values, &release, record, grid)?;
         let pairs = record.values.iter().zip(&own);
         let beyond = pairs.map(|(measured, own)| (measured - own) / record.noise);
         let mut residual = DVector::from_iterator(own.len(), beyond);
-        // the offset that fits best
-        let mean = residual.mean();
-        residual.add_scalar_mut(-mean);
+        match beside {
+            // the offset that fits best
+            None => {
+                let mean = residual.mean();
+                residual.add_scalar_mut(-mean);
+            }
+            Some(beside) => residual -= beside * beside.tr_mul(&residual),
+        }
         let is_finite = residual.iter().all(|entry| entry.is_finite());
         is_finite.then_some(Self { release, residual })
     }
@@ -114,10 +120,10 @@ fn guessed(record: &Recorded, omega: f64, rate: f64) -> Option<Release> {
 
 /// One step of Gauss and Newton.
 fn improved(values: &Values, record: &Recorded, grid: &Grid, from: &Release) -> Option<Release> {
-    let own = Course::of(values, *from, record, grid)?;
+    let own = Course::of(values, *from, (record, None), grid)?;
     let steps = steps(from, grid);
     let columns = [[steps[0], 0.0], [0.0, steps[1]]].map(|change| {
-        let other = Course::of(values, moved(from, change), record, grid)?;
+        let other = Course::of(values, moved(from, change), (record, None), grid)?;
         Some((other.residual - &own.residual) / (change[0] + change[1]))
     });
     let [Some(by_displacement), Some(by_time)] = columns else {

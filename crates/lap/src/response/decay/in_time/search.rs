@@ -4,6 +4,7 @@
 //! differences, and hold for a few steps.
 
 use std::cell::Cell;
+use std::rc::Rc;
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -52,6 +53,8 @@ pub(super) const OWN: usize = 3;
 pub(super) struct Run<'a> {
     pub(super) record: &'a Recorded,
     pub(super) grid: Grid,
+    /// An orthonormal basis of what errors of other modes are in all of its samples, and an offset.
+    pub(super) beside: Option<Rc<DMatrix<f64>>>,
     /// What of the run stays with its rows.
     pub(super) plain: BackboneRun,
 }
@@ -131,6 +134,8 @@ impl Search<'_> {
     pub(super) fn up_to(&self, share: f64) -> Self {
         let runs = self.runs.iter().map(|run| Run {
             grid: run.grid.up_to((share * run.grid.samples as f64) as usize),
+            // over a few periods they would take what is the motion's
+            beside: run.beside.clone().filter(|_| share >= 1.0),
             ..run.clone()
         });
         Self {
@@ -150,7 +155,8 @@ impl Search<'_> {
     ) -> Option<Course> {
         self.left
             .set(self.left.get().checked_sub(run.grid.steps())?);
-        Course::of(values, release, run.record, &run.grid)
+        let beside = run.beside.as_deref();
+        Course::of(values, release, (run.record, beside), &run.grid)
     }
 
     /// A better place, after a few steps that are drawn back: what the samples do not tell stays as it is.
@@ -272,7 +278,9 @@ impl Search<'_> {
         let all = self.runs.iter().zip(&from.courses).zip(slopes);
         let runs = all.map(|((run, course), slopes)| {
             let numbers = (
-                run.grid.samples.saturating_sub(OWN),
+                run.grid
+                    .samples
+                    .saturating_sub(OWN + run.record.beside_count()),
                 course.release.displacement_m.abs(),
             );
             let rows = Rows::of(&from.values, &slopes.normal(course), numbers);

@@ -12,6 +12,7 @@ fn record(quantity: Quantity, interval_s: f64) -> Recorded {
         noise: 1e-6,
         read_part: 1.0,
         has_band: false,
+        others: Some(Vec::new()),
     }
 }
 

@@ -32,6 +32,7 @@ fn told(residual: Vec<f64>) -> Option<Coloured> {
         noise: 3e-6,
         read_part: 1.0,
         has_band: false,
+        others: Some(Vec::new()),
     };
     let grid = Grid::of(&record, COUNT, 707.0);
     let course = Course {

@@ -123,6 +123,7 @@ pub fn identify_and_draw(
         lines: all,
         files,
         mut warnings,
+        reasons_against: unsound,
         from_modes,
     } = assemble::lines(study, watch)?;
     let of_b = &all[0].points.clone();
@@ -253,6 +254,8 @@ pub fn identify_and_draw(
     let unexplained = median_difference.filter(|_| !is_explained);
     let mut reasons_against = reliability::reasons_against(&estimate, &study.bolts, unexplained);
     reasons_against.extend(reliability::because_of(&slips, &estimate.assessment));
+    reasons_against.extend(unsound);
+    reasons_against.extend(systematic.as_ref().and_then(Systematic::feeding_energy));
     if has_budget && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }

@@ -23,6 +23,8 @@ use super::receptances::Receptances;
 const GRAVITY: f64 = 9.806_65;
 /// A slip is named where undoing it lowers the mean square of what is left to this part …
 const MOST_LEFT: f64 = 0.25;
+/// … a factor of a hundred and more to this …
+const MOST_LEFT_FAR: f64 = 0.02;
 /// … and another one is named beside it where it leaves less than so many times as much.
 const ALIKE: f64 = 1.5;
 /// A mean square beside the receptances that a joint leaves if it belongs to the data at all: one that has nothing to do with them
@@ -56,6 +58,13 @@ pub enum Slip {
     Responses(usize, usize),
     /// The rotation at the joint of a structure has the wrong sign.
     Rotation(Side),
+}
+
+impl Slip {
+    /// Whether it is a factor that leaves hardly anything of a set, or of what stands beside it.
+    fn is_far_off(self) -> bool {
+        matches!(self, Self::Factor(_, factor) if factor.abs().log10().abs() >= 2.0)
+    }
 }
 
 /// A slip with what undoing it does.
@@ -154,6 +163,8 @@ pub(super) fn found(
     let relative = noise.assembly.relative.filter(|relative| *relative > 0.0);
     let believable = BELIEVABLE / relative.unwrap_or(1.0).powi(2) / as_it_is;
     let most = MOST_LEFT.min(believable);
+    // what is a thousand times itself is as good as not there, which may fit a little better
+    ranked.retain(|(slip, left)| !slip.is_far_off() || *left < MOST_LEFT_FAR);
     let Some(&(_, best)) = ranked.first().filter(|(_, left)| *left < most) else {
         return Vec::new();
     };

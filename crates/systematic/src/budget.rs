@@ -12,6 +12,8 @@ pub struct Budget {
     pub common_gain: f64,
     /// Gain of each response channel, relative.
     pub channel_gain: f64,
+    /// Delay that all sets have in common, s.
+    pub common_delay_s: f64,
     /// Delay of each set, s.
     pub delay_s: f64,
     /// Constant phase of each set, rad.
@@ -26,6 +28,8 @@ pub struct Budget {
     pub youngs_modulus: f64,
     /// Density of a computed structure, relative.
     pub density: f64,
+    /// Damping of a computed structure, relative.
+    pub structure_damping: f64,
     /// Mass at the joint that only the assembly has, kg.
     pub joint_mass_kg: f64,
     /// Moment of inertia at the joint that only the assembly has, kg·m².
@@ -34,6 +38,8 @@ pub struct Budget {
     pub loss_factor: f64,
     /// Bending stiffness behind the correction of rotations by differences, relative.
     pub difference_stiffness: f64,
+    /// Distance between the points that rotations are differences of, relative.
+    pub difference_spacing: f64,
 }
 
 impl Default for Budget {
@@ -43,6 +49,7 @@ impl Default for Budget {
             gain: 0.01,
             common_gain: 0.01,
             channel_gain: 0.005,
+            common_delay_s: 5e-6,
             delay_s: 5e-6,
             phase_rad: 0.0,
             accelerometer_mass_kg: 3e-4,
@@ -50,10 +57,12 @@ impl Default for Budget {
             frequency: 0.002,
             youngs_modulus: 0.01,
             density: 0.005,
+            structure_damping: 0.3,
             joint_mass_kg: 0.010,
             joint_inertia_kg_m2: 0.0,
             loss_factor: 0.02,
             difference_stiffness: 0.05,
+            difference_spacing: 0.01,
         }
     }
 }
@@ -85,6 +94,7 @@ impl Budget {
             gain: 0.0,
             common_gain: 0.0,
             channel_gain: 0.0,
+            common_delay_s: 0.0,
             delay_s: 0.0,
             phase_rad: 0.0,
             accelerometer_mass_kg: 0.0,
@@ -92,10 +102,12 @@ impl Budget {
             frequency: 0.0,
             youngs_modulus: 0.0,
             density: 0.0,
+            structure_damping: 0.0,
             joint_mass_kg: 0.0,
             joint_inertia_kg_m2: 0.0,
             loss_factor: 0.0,
             difference_stiffness: 0.0,
+            difference_spacing: 0.0,
         }
     }
 
@@ -112,6 +124,7 @@ impl Budget {
             Cause::Gain(_) => self.gain,
             Cause::CommonGain => self.common_gain,
             Cause::ChannelGain(..) => self.channel_gain,
+            Cause::CommonDelay => self.common_delay_s,
             Cause::Delay(_) => self.delay_s,
             Cause::Phase(_) => self.phase_rad,
             Cause::Accelerometer(_) => self.accelerometer_mass_kg,
@@ -121,10 +134,12 @@ impl Budget {
             Cause::Frequency(_) => self.frequency,
             Cause::YoungsModulus(_) => self.youngs_modulus,
             Cause::Density(_) => self.density,
+            Cause::StructureDamping(_) => self.structure_damping,
             Cause::JointMass(..) => self.joint_mass_kg,
             Cause::JointInertia(..) => self.joint_inertia_kg_m2,
             Cause::LossFactor => self.loss_factor,
             Cause::DifferenceStiffness(_) => self.difference_stiffness,
+            Cause::DifferenceSpacing(_) => self.difference_spacing,
         }
     }
 }
@@ -149,6 +164,7 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
     let assemblies = experiment.assemblies.iter().enumerate();
     let assemblies = assemblies.map(|(number, of)| (MeasuredSet::Assembly(number), &of.functions));
     let mut measured: Vec<_> = assemblies.collect();
+    let mut all_are_measured = true;
     for side in [Side::A, Side::B] {
         let bolts = 0..experiment.joint.bolts();
         match experiment.side(side) {
@@ -157,6 +173,9 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
                 causes.push(Cause::Frequency(side));
                 if structure.correction.is_some() {
                     causes.push(Cause::DifferenceStiffness(side));
+                }
+                if !structure.differences.is_empty() {
+                    causes.push(Cause::DifferenceSpacing(side));
                 }
                 if experiment.joint.has_rotation() {
                     causes.extend(bolts.clone().flat_map(|bolt| {
@@ -168,7 +187,12 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
                 }
             }
             Structure::Computed(_) => {
-                causes.extend([Cause::YoungsModulus(side), Cause::Density(side)]);
+                causes.extend([
+                    Cause::YoungsModulus(side),
+                    Cause::Density(side),
+                    Cause::StructureDamping(side),
+                ]);
+                all_are_measured = false;
                 causes.extend(bolts.clone().map(|bolt| Cause::JointPosition(side, bolt)));
             }
             Structure::Exact(_) => {}
@@ -177,6 +201,10 @@ pub(crate) fn causes(experiment: &Experiment<'_>) -> Vec<Cause> {
         if experiment.joint.has_rotation() {
             causes.extend(bolts.map(|bolt| Cause::JointInertia(side, bolt)));
         }
+    }
+    // beside a computed structure it is that of each set
+    if all_are_measured {
+        causes.push(Cause::CommonDelay);
     }
     for (set, functions) in measured {
         causes.extend([Cause::Gain(set), Cause::Delay(set), Cause::Phase(set)]);

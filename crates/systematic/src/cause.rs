@@ -48,6 +48,8 @@ pub enum Cause {
     CommonGain,
     /// Gain of a response channel of a set; relative.
     ChannelGain(MeasuredSet, usize),
+    /// Delay that all sets have in common, s.
+    CommonDelay,
     /// Delay of a set, s.
     Delay(MeasuredSet),
     /// Constant phase of a set, rad.
@@ -66,6 +68,8 @@ pub enum Cause {
     YoungsModulus(Side),
     /// Density of a computed structure; relative.
     Density(Side),
+    /// Damping of a computed structure; relative.
+    StructureDamping(Side),
     /// Mass at a bolt of a structure that only the assembly has, kg.
     JointMass(Side, usize),
     /// Moment of inertia at a bolt of a structure that only the assembly has, kg·m².
@@ -74,6 +78,8 @@ pub enum Cause {
     LossFactor,
     /// Bending stiffness that the correction of a rotation by differences is made with; relative.
     DifferenceStiffness(Side),
+    /// Distance between the points that a rotation is the difference of; relative.
+    DifferenceSpacing(Side),
 }
 
 /// Causes that one calibration would settle together.
@@ -91,7 +97,7 @@ pub enum Group {
     Positions,
     /// Frequencies of the structures after they were clamped again.
     Clamping,
-    /// Material of computed structures, and bending stiffness of corrections.
+    /// Material and damping of computed structures, and bending stiffness of corrections.
     Material,
     /// Mass at the joint.
     JointMass,
@@ -156,15 +162,17 @@ impl Cause {
         match self {
             Self::Gain(_) | Self::CommonGain => Group::Gains,
             Self::ChannelGain(..) => Group::Channels,
-            Self::Delay(_) | Self::Phase(_) => Group::Timing,
+            Self::CommonDelay | Self::Delay(_) | Self::Phase(_) => Group::Timing,
             Self::Accelerometer(_) => Group::Accelerometers,
-            Self::Position(_) | Self::JointPosition(..) | Self::JointBending(..) => {
-                Group::Positions
-            }
+            Self::Position(_)
+            | Self::JointPosition(..)
+            | Self::JointBending(..)
+            | Self::DifferenceSpacing(_) => Group::Positions,
             Self::Frequency(_) => Group::Clamping,
-            Self::YoungsModulus(_) | Self::Density(_) | Self::DifferenceStiffness(_) => {
-                Group::Material
-            }
+            Self::YoungsModulus(_)
+            | Self::Density(_)
+            | Self::StructureDamping(_)
+            | Self::DifferenceStiffness(_) => Group::Material,
             Self::JointMass(..) | Self::JointInertia(..) => Group::JointMass,
             Self::LossFactor => Group::LossFactor,
         }
@@ -174,14 +182,17 @@ impl Cause {
     /// stands out.
     #[must_use]
     pub fn is_hidden(self) -> bool {
-        matches!(self, Self::CommonGain | Self::JointBending(..))
+        matches!(
+            self,
+            Self::CommonGain | Self::CommonDelay | Self::JointBending(..)
+        )
     }
 
     /// A value of it in a unit that people read, and that unit.
     #[must_use]
     pub fn shown(self, value: f64) -> (f64, &'static str) {
         match self {
-            Self::Delay(_) => (1e6 * value, "µs"),
+            Self::CommonDelay | Self::Delay(_) => (1e6 * value, "µs"),
             Self::Phase(_) => (value.to_degrees(), "°"),
             Self::Accelerometer(_) | Self::JointMass(..) => (1e3 * value, "g"),
             Self::JointInertia(..) => (1e6 * value, "kg·mm²"),
@@ -194,8 +205,10 @@ impl Cause {
             | Self::Frequency(_)
             | Self::YoungsModulus(_)
             | Self::Density(_)
+            | Self::StructureDamping(_)
             | Self::LossFactor
-            | Self::DifferenceStiffness(_) => (1e2 * value, "%"),
+            | Self::DifferenceStiffness(_)
+            | Self::DifferenceSpacing(_) => (1e2 * value, "%"),
         }
     }
 }

@@ -48,6 +48,7 @@ impl At<'_> {
                         *gain += value * share_of_row(entry, row);
                     }
                 }
+                Cause::CommonDelay => phase -= self.omega * value,
                 Cause::Delay(set) if set == self.set => phase -= self.omega * value,
                 Cause::Phase(set) if set == self.set => phase += value,
                 _ => {}
@@ -90,6 +91,9 @@ impl At<'_> {
             Cause::Gain(set) if set == self.set => Box::new(truth),
             Cause::ChannelGain(set, row) if set == self.set => {
                 Box::new(move |entry| truth(entry) * share_of_row(entry, row))
+            }
+            Cause::CommonDelay => {
+                Box::new(move |entry| truth(entry) * Complex64::new(0.0, -self.omega))
             }
             Cause::Delay(set) if set == self.set => {
                 Box::new(move |entry| truth(entry) * Complex64::new(0.0, -self.omega))
@@ -300,6 +304,7 @@ mod tests {
             (Cause::Gain(SET), 0.0),
             (Cause::CommonGain, 0.0),
             (Cause::ChannelGain(SET, 2), 0.0),
+            (Cause::CommonDelay, 0.0),
             (Cause::Delay(SET), 0.0),
             (Cause::Phase(SET), 0.0),
             (Cause::Accelerometer(SET), 0.004),

@@ -98,6 +98,8 @@ pub struct Change {
     pub youngs_modulus: f64,
     /// Of the density, relative.
     pub density: f64,
+    /// Of the damping, relative.
+    pub damping: f64,
     /// Of the position of the joint at each bolt, m; empty for none.
     pub joint_m: Vec<f64>,
     /// Of the position of each point, m; empty for none.
@@ -106,7 +108,7 @@ pub struct Change {
 
 /// Computes a structure anew.
 pub trait Compute: Sync {
-    /// The structure with a change; `None` where that is impossible, such as a modulus below zero. A point may be beyond its end.
+    /// The structure with a change; `None` where that is impossible, such as a modulus or a damping below zero. A point may be beyond its end.
     fn changed(&self, change: &Change) -> Option<Box<dyn Computation + '_>>;
 }
 

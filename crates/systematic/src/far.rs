@@ -74,6 +74,8 @@ fn beginnings(cause: Cause) -> &'static [f64] {
         | Cause::CommonGain
         | Cause::ChannelGain(..)
         | Cause::Phase(_)
+        | Cause::CommonDelay
+        | Cause::StructureDamping(_)
         | Cause::LossFactor
         | Cause::JointBending(..) => &[0.0],
         Cause::Accelerometer(_) | Cause::JointMass(..) | Cause::JointInertia(..) => {
@@ -85,6 +87,7 @@ fn beginnings(cause: Cause) -> &'static [f64] {
         | Cause::Frequency(_)
         | Cause::YoungsModulus(_)
         | Cause::Density(_)
-        | Cause::DifferenceStiffness(_) => &[0.0, 7.0, -7.0],
+        | Cause::DifferenceStiffness(_)
+        | Cause::DifferenceSpacing(_) => &[0.0, 7.0, -7.0],
     }
 }

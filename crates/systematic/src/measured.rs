@@ -18,6 +18,8 @@ pub struct Measured {
     pub transformation: DMatrix<f64>,
     /// What rotations by differences lack, with its derivative by ln EI: real, at the joint's DOFs, rad/(N·m) and so on.
     pub correction: Option<[DMatrix<f64>; 2]>,
+    /// Rotations among the joint's DOFs that are differences of translations.
+    pub(crate) differences: Vec<usize>,
     /// How the structure bends beside each bolt; empty where the joint has no rotation.
     pub(crate) at_bolts: Vec<AtBolt>,
     /// Positions of the bolts, where they are told in the direction of the points, m; empty if none is.
@@ -49,7 +51,19 @@ impl Measured {
         bending_stiffness_n_m2: Option<f64>,
         joint: &JointShape,
     ) -> Self {
+        let bolts = 0..joint.bolts();
+        let rotations = bolts.map(|bolt| joint.translation(bolt) + 1);
+        let is_difference = |theta: &usize| {
+            let labels = functions.is_translation.iter().enumerate();
+            let mut translations = labels.filter(|(_, is)| **is);
+            translations.any(|(label, _)| transformation[(*theta, label)] != 0.0)
+        };
+        let differences = match joint.has_rotation() {
+            true => rotations.filter(is_difference).collect(),
+            false => Vec::new(),
+        };
         let mut new = Self {
+            differences,
             functions,
             transformation,
             correction,

@@ -113,7 +113,10 @@ fn recomputed(
 /// Whether a cause changes a computed structure.
 fn acts_on(experiment: &Experiment<'_>, cause: Cause, side: Side) -> bool {
     match cause {
-        Cause::YoungsModulus(of) | Cause::Density(of) | Cause::JointPosition(of, _) => of == side,
+        Cause::YoungsModulus(of)
+        | Cause::Density(of)
+        | Cause::StructureDamping(of)
+        | Cause::JointPosition(of, _) => of == side,
         Cause::Position(point) => experiment.points_on(side).contains(&point),
         _ => false,
     }
@@ -130,6 +133,7 @@ fn change(experiment: &Experiment<'_>, side: Side, priors: &[Prior], values: &[f
         match prior.cause {
             Cause::YoungsModulus(of) if of == side => change.youngs_modulus = value,
             Cause::Density(of) if of == side => change.density = value,
+            Cause::StructureDamping(of) if of == side => change.damping = value,
             Cause::JointPosition(of, bolt) if of == side => change.joint_m[bolt] = value,
             Cause::Position(point) if points.contains(&point) => {
                 change.points_m[point - points.start] = value;
@@ -170,6 +174,13 @@ impl Measured {
             let stiffness = value_of(Cause::DifferenceStiffness(side), priors, values);
             add_at_joint(&mut formed, &(by_stiffness * stiffness));
         }
+        let spacing = value_of(Cause::DifferenceSpacing(side), priors, values);
+        if spacing != 0.0 {
+            for &theta in &self.differences {
+                formed.row_mut(theta).scale_mut(1.0 + spacing);
+                formed.column_mut(theta).scale_mut(1.0 + spacing);
+            }
+        }
         for (prior, &value) in priors.iter().zip(values) {
             match prior.cause {
                 Cause::JointPosition(of, bolt) if of == side && value != 0.0 => {
@@ -192,13 +203,24 @@ impl Measured {
         dofs_of_a_bolt: usize,
         side: Side,
         (formed, omega): (&ComplexMatrix, f64),
-        cause: Cause,
+        (cause, value): (Cause, f64),
     ) -> Option<ComplexMatrix> {
         match cause {
             Cause::DifferenceStiffness(of) if of == side => {
                 let [_, by_stiffness] = self.correction.as_ref()?;
                 let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
                 add_at_joint(&mut change, by_stiffness);
+                Some(change)
+            }
+            Cause::DifferenceSpacing(of) if of == side => {
+                let mut change = ComplexMatrix::zeros(formed.nrows(), formed.ncols());
+                for &theta in &self.differences {
+                    for other in 0..formed.nrows() {
+                        let own = formed[(theta, other)] / (1.0 + value);
+                        change[(theta, other)] += own;
+                        change[(other, theta)] += own;
+                    }
+                }
                 Some(change)
             }
             Cause::JointPosition(of, bolt) if of == side => {

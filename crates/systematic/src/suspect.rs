@@ -48,6 +48,9 @@ pub struct Diagnosis {
     pub start: Start,
 }
 
+/// Standard deviations of χ² that chance lowers it by at most.
+const BEYOND_CHANCE: f64 = 6.0;
+
 /// A suspect, and where joint and cause are if it was let free.
 type Trial = (Suspect, Option<Start>);
 
@@ -184,14 +187,14 @@ impl<'c> Case<'c> {
         let least = TELLING.max(WORTH * largest);
         let start = Start::without_causes(&self.plain.unknowns);
         let telling = scores.iter().filter(|score| score.drop > least).take(MOST);
-        let trial = |score: &Score| -> Trial {
+        let trial = |score: &Score| -> Option<Trial> {
             let free = self.freed(score.cause, score.value);
             match self.refitted(free, &start) {
-                Some((suspect, start)) => (suspect, Some(start)),
-                None => (self.as_scored(score), None),
+                Some((suspect, start)) => Some((suspect, Some(start))),
+                None => Some((self.as_scored(score)?, None)),
             }
         };
-        telling.map(trial).collect()
+        telling.filter_map(trial).collect()
     }
 
     fn diagnosis(&self, mut trials: Vec<Trial>, scores: Vec<Score>) -> Diagnosis {
@@ -244,15 +247,21 @@ impl<'c> Case<'c> {
         Some((suspect, start))
     }
 
-    fn as_scored(&self, score: &Score) -> Suspect {
-        Suspect {
+    /// What the score says alone; `None` where it promises more than noise has above its least: where noise is large beside a
+    /// function, as at a resonance of what differences are taken of, one line can promise that.
+    fn as_scored(&self, score: &Score) -> Option<Suspect> {
+        let squares: f64 = self.plain.costs_at(self.plain).sum();
+        let reduced = self.plain.reduced_chi_squared.filter(|own| *own > 0.0)?;
+        let freedom = squares / reduced;
+        let most = squares - freedom + BEYOND_CHANCE * (2.0 * freedom).sqrt();
+        (score.drop < most).then(|| Suspect {
             cause: score.cause,
             value: score.value,
             standard_deviation: score.standard_deviation,
             drop: score.drop,
             reduced_chi_squared: None,
             lines: self.plain.lines.0,
-        }
+        })
     }
 
     /// Whether this cause leaves noise, at nearly all lines.

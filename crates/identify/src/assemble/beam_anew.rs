@@ -149,6 +149,7 @@ impl Compute for BeamAnew<'_> {
         let beam = Beam {
             youngs_modulus_pa,
             density_kg_per_m3,
+            damping: self.beam.damping.times(1.0 + change.damping),
             ..self.beam.clone()
         };
         let dofs = self.dofs(change)?;
@@ -156,6 +157,7 @@ impl Compute for BeamAnew<'_> {
         Some(Box::new(ChangedBeam {
             of: self,
             modal: beam.modal(&nodes).ok()?,
+            damping: change.damping,
             dofs,
         }))
     }
@@ -165,6 +167,8 @@ impl Compute for BeamAnew<'_> {
 struct ChangedBeam<'a> {
     of: &'a BeamAnew<'a>,
     modal: ModalBeam,
+    /// The change of its damping, relative.
+    damping: f64,
     dofs: Vec<(BeamPoint, f64)>,
 }
 
@@ -177,6 +181,7 @@ impl Computation for ChangedBeam<'_> {
     fn nearby(&self, change: &Change) -> Option<Vec<ComplexMatrix>> {
         let [youngs_modulus_pa, density_kg_per_m3] = self.of.material(change);
         let modal = self.modal.of_material(youngs_modulus_pa, density_kg_per_m3);
+        let modal = modal.damped((1.0 + change.damping) / (1.0 + self.damping));
         self.of.receptances(&modal, &self.of.dofs(change)?)
     }
 }

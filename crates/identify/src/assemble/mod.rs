@@ -44,6 +44,8 @@ pub(super) struct Assembled {
     pub(super) files: Vec<FileSummary>,
     /// What the user should know about the files.
     pub(super) warnings: Vec<String>,
+    /// What makes a result of no use, whatever a fit leaves.
+    pub(super) reasons_against: Vec<String>,
     /// What modes supplied beside measured functions.
     pub(super) from_modes: Vec<FromModes>,
 }
@@ -88,6 +90,8 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
     reader.warnings.extend(named_bands::warnings(study, &all)?);
     reader.warnings.sort();
     reader.warnings.dedup();
+    reader.reasons_against.sort();
+    reader.reasons_against.dedup();
     let mut from_modes: Vec<FromModes> = Vec::new();
     for one in reader.from_modes {
         if !from_modes.contains(&one) {
@@ -98,6 +102,7 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
         lines: all,
         files: reader.files,
         warnings: reader.warnings,
+        reasons_against: reader.reasons_against,
         from_modes,
     })
 }
@@ -132,8 +137,7 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
     };
     let points = &study.points;
     let labelled = labelled_functions(&assembly, points, Completeness::Any, &study.assembly)?;
-    let unsound = soundness::warnings(&labelled, points, path);
-    reader.warnings.extend(unsound);
+    reader.note(soundness::unsound(&labelled, points, path));
     let mean = repeated(study, labelled, &axis, reader)?;
     let measured = mean.measured;
     // Each function gives two real equations on each line; the joint file's band of validity needs two lines.

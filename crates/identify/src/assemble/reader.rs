@@ -6,6 +6,7 @@ use super::super::error::IdentifyError;
 use super::super::from_modes::FromModes;
 use super::super::study::FrfFile;
 use super::super::watch::Watch;
+use super::soundness::Unsound;
 use bolted_joint_frf::{
     Dof, FileSummary, FrfError, FrfReading, FrfSet, ReadOptions, Selection, read_frfs_watched,
 };
@@ -16,6 +17,7 @@ use bolted_joint_study::LineChoice;
 pub(super) struct Reader<'watch> {
     pub(super) watch: Option<&'watch dyn Watch>,
     pub(super) warnings: Vec<String>,
+    pub(super) reasons_against: Vec<String>,
     pub(super) from_modes: Vec<FromModes>,
     /// Lines to use of what is read; all where nothing is said.
     pub(super) lines: Option<LineChoice>,
@@ -24,6 +26,12 @@ pub(super) struct Reader<'watch> {
 }
 
 impl Reader<'_> {
+    /// Remembers what is wrong with a set.
+    pub(super) fn note(&mut self, unsound: Unsound) {
+        self.warnings.extend(unsound.warnings);
+        self.reasons_against.extend(unsound.turned);
+    }
+
     /// The functions between `dofs` in a band (Hz); of a large file the rest is not held.
     pub(super) fn read(
         &mut self,

@@ -6,16 +6,40 @@ use std::path::Path;
 use num_complex::Complex64;
 
 use super::labelled::Labelled;
-use bolted_joint_frf::{Asked, Dof, feeds_energy};
+use bolted_joint_frf::{Asked, Dof, feeds_energy, turns_backwards};
 
 /// H_pq and H_qp may differ by this part of them at half of the lines.
 const RECIPROCAL: f64 = 0.2;
 /// They differ by a factor where this makes them so much more alike.
 const MORE_ALIKE: f64 = 0.3;
 
-/// What is wrong with functions between `labels`, each with the file's name.
-pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec<String> {
+/// What is wrong with a set of functions.
+pub(super) struct Unsound {
+    /// Each with the file's name.
+    pub(super) warnings: Vec<String>,
+    /// That its phases are counted the other way, whatever a fit makes of them: every drive point feeds energy, and the phase of each
+    /// rises through resonances, as no turned sign lets it.
+    pub(super) turned: Option<String>,
+}
+
+/// What is wrong with functions between `labels`.
+pub(super) fn unsound(functions: &Labelled, labels: &[Dof], path: &Path) -> Unsound {
     let (mut found, mut signs) = (Vec::new(), Vec::new());
+    let drive_points = functions.measured.iter().filter(|(p, q)| p == q);
+    let mut drive_points = drive_points
+        .map(|&(p, _)| functions.function(p, p))
+        .peekable();
+    let is_turned = drive_points.peek().is_some()
+        && drive_points.all(|own| {
+            feeds_energy(own, Asked::BeyondNoise) && turns_backwards(own, Asked::BeyondNoise)
+        });
+    let turned = is_turned.then(|| {
+        format!(
+            "the phases of {} are counted the other way (e^−jωt): they rise through resonances, and every drive point feeds energy; \
+             take the conjugate of its functions",
+            path.display()
+        )
+    });
     for &(p, q) in &functions.measured {
         if p == q && feeds_energy(functions.function(p, p), Asked::BeyondNoise) {
             signs.push(labels[p].to_string());
@@ -37,9 +61,11 @@ pub(super) fn warnings(functions: &Labelled, labels: &[Dof], path: &Path) -> Vec
         ));
     }
     let named = found.into_iter();
-    named
-        .map(|complaint| format!("{}: {complaint}", path.display()))
-        .collect()
+    let warnings = named.map(|complaint| format!("{}: {complaint}", path.display()));
+    Unsound {
+        warnings: warnings.collect(),
+        turned,
+    }
 }
 
 /// How two functions that should be the same differ; `None` where they are.

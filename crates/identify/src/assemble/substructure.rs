@@ -313,8 +313,7 @@ fn labelled_receptances(
                 .as_ref()
                 .map_or(Completeness::All, Completeness::WithModes);
             let mut labelled = labelled_functions(&set, labels, completeness, file)?;
-            let unsound = soundness::warnings(&labelled, labels, &file.path);
-            reader.warnings.extend(unsound);
+            reader.note(soundness::unsound(&labelled, labels, &file.path));
             let is_symmetric = |p, q| labelled.function(p, q) == labelled.function(q, p);
             let measured = independent(&labelled.measured, is_symmetric);
             labelled.relative_variance = relative_variances(&set, labels, &measured);

@@ -29,6 +29,8 @@ pub(super) use together::{Apart, are_together};
 
 /// Bands that are asked whether they agree on the joint.
 const BANDS: [usize; 2] = [2, 8];
+/// Standard deviations by which a loss factor is below zero that no chance explains.
+const FEEDS: f64 = 5.0;
 /// A p-value below this is no chance.
 const CHANCE: f64 = 0.01;
 /// Causes whose drops of χ² differ by less than this part cannot be told apart.
@@ -297,6 +299,21 @@ impl Systematic {
             .collect()
     }
 
+    /// That the joint's loss factor is negative beyond all doubt: what dissipates less than it is said to is another part.
+    pub(super) fn feeding_energy(&self) -> Option<String> {
+        let is_of_joint =
+            |(_, own): &&(String, CauseEstimate)| own.prior.cause == Cause::LossFactor;
+        let (_, own) = self.causes.iter().find(is_of_joint)?;
+        (own.value < -FEEDS * own.standard_deviation).then(|| {
+            let ([value, deviation], unit) =
+                shown(own.prior.cause, [own.value, own.standard_deviation]);
+            format!(
+                "the joint would feed energy: its loss factor is {value:.3} ± {deviation:.2} {unit}; the damping of a structure is \
+                 stated too high, or phases are wrong"
+            )
+        })
+    }
+
     /// Whether what it leaves is noise.
     pub(super) fn explains_the_data(&self) -> bool {
         let chi = self.reduced_chi_squared;
@@ -413,6 +430,7 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::Gain(set) => format!("gain of {set}"),
         Cause::CommonGain => "gain of all sets".to_owned(),
         Cause::ChannelGain(set, row) => format!("gain of the channel {} of {set}", label(set, row)),
+        Cause::CommonDelay => "delay of all sets".to_owned(),
         Cause::Delay(set) => format!("delay of {set}"),
         Cause::Phase(set) => format!("phase of {set}"),
         Cause::Accelerometer(set) => format!("mass of the accelerometer on {set}"),
@@ -425,6 +443,7 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::Frequency(side) => format!("frequencies of {side} in the assembly"),
         Cause::YoungsModulus(side) => format!("Young's modulus of {side}"),
         Cause::Density(side) => format!("density of {side}"),
+        Cause::StructureDamping(side) => format!("damping of {side}"),
         Cause::JointMass(side, of) => format!("mass at the joint on {side}{}", bolt(of)),
         Cause::JointInertia(side, of) => {
             format!("moment of inertia at the joint on {side}{}", bolt(of))
@@ -432,6 +451,9 @@ fn name(cause: Cause, study: &Study, lines: &Lines) -> String {
         Cause::LossFactor => "loss factor of the joint".to_owned(),
         Cause::DifferenceStiffness(side) => {
             format!("bending stiffness of {side} behind its rotation")
+        }
+        Cause::DifferenceSpacing(side) => {
+            format!("spacing of the points of {side} that its rotation is of")
         }
     }
 }

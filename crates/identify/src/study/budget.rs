@@ -59,6 +59,7 @@ pub(super) struct BudgetTable {
     gain: Option<Deviation>,
     common_gain: Option<Deviation>,
     channel_gain: Option<Deviation>,
+    common_delay: Option<Deviation>,
     delay: Option<Deviation>,
     phase: Option<Deviation>,
     accelerometer_mass: Option<Deviation>,
@@ -66,10 +67,12 @@ pub(super) struct BudgetTable {
     frequency: Option<Deviation>,
     youngs_modulus: Option<Deviation>,
     density: Option<Deviation>,
+    beam_damping: Option<Deviation>,
     joint_mass: Option<Deviation>,
     joint_inertia: Option<Deviation>,
     loss_factor: Option<Deviation>,
     fd_stiffness: Option<Deviation>,
+    fd_spacing: Option<Deviation>,
 }
 
 impl<'de> Deserialize<'de> for BudgetKey {
@@ -141,6 +144,12 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
         gain: part("gain", table.gain, careful.gain)?,
         common_gain: part("common_gain", table.common_gain, careful.common_gain)?,
         channel_gain: part("channel_gain", table.channel_gain, careful.channel_gain)?,
+        common_delay_s: number(
+            "common_delay",
+            DELAY,
+            table.common_delay,
+            careful.common_delay_s,
+        )?,
         delay_s: number("delay", DELAY, table.delay, careful.delay_s)?,
         phase_rad: number("phase", PHASE, table.phase, careful.phase_rad)?,
         accelerometer_mass_kg: number(
@@ -157,6 +166,11 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
             careful.youngs_modulus,
         )?,
         density: part("density", table.density, careful.density)?,
+        structure_damping: part(
+            "beam_damping",
+            table.beam_damping,
+            careful.structure_damping,
+        )?,
         joint_mass_kg: number("joint_mass", MASS, table.joint_mass, careful.joint_mass_kg)?,
         joint_inertia_kg_m2: number(
             "joint_inertia",
@@ -170,5 +184,6 @@ pub(super) fn budget(study: &StudyText, key: Option<BudgetKey>) -> Result<Budget
             table.fd_stiffness,
             careful.difference_stiffness,
         )?,
+        difference_spacing: part("fd_spacing", table.fd_spacing, careful.difference_spacing)?,
     })
 }

@@ -100,9 +100,12 @@ impl Study {
             Cause::Gain(_)
             | Cause::CommonGain
             | Cause::ChannelGain(..)
+            | Cause::CommonDelay
             | Cause::Delay(_)
             | Cause::Phase(_)
             | Cause::Frequency(_)
+            | Cause::StructureDamping(_)
+            | Cause::DifferenceSpacing(_)
             | Cause::LossFactor => None,
         }
     }

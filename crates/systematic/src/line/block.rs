@@ -197,7 +197,7 @@ impl Task<'_> {
                         experiment.joint.dofs_of_a_bolt,
                         side,
                         (&smooth_structures[side as usize], omega),
-                        prior.cause,
+                        (prior.cause, point.causes[cause]),
                     ),
                     Structure::Computed(_) => {
                         let all = line

@@ -46,6 +46,17 @@ pub enum Damping {
     LossFactor(f64),
 }
 
+impl Damping {
+    /// So many times as much.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        match self {
+            Self::Ratios(ratios) => Self::Ratios(ratios.iter().map(|own| factor * own).collect()),
+            Self::LossFactor(own) => Self::LossFactor(factor * own),
+        }
+    }
+}
+
 /// A uniform beam of rectangular cross-section that bends about its width.
 ///
 /// ```

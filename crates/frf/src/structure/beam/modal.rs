@@ -83,6 +83,18 @@ impl ModalBeam {
         }
     }
 
+    /// The same beam with so many times its damping.
+    #[must_use]
+    pub fn damped(&self, factor: f64) -> Self {
+        Self {
+            beam: Beam {
+                damping: self.beam.damping.times(factor),
+                ..self.beam.clone()
+            },
+            ..self.clone()
+        }
+    }
+
     /// ω_r, rad/s, ascending; rounding may leave a small number of a rigid-body mode.
     pub(super) fn angular_frequency(&self) -> &DVector<f64> {
         &self.modes.angular_frequency

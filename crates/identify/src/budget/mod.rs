@@ -238,9 +238,15 @@ impl Systematic {
         };
         let causes = found.causes.iter();
         let causes = causes.map(|cause| (name(cause.prior.cause), *cause));
-        let suspects = suspects.iter();
+        let is_possible =
+            |cause: Cause, value: f64| value >= 0.0 || !study.is_never_negative(cause);
+        let suspects = suspects
+            .iter()
+            .filter(|own| is_possible(own.cause, own.value));
         let suspects = suspects.map(|suspect| (name(suspect.cause), *suspect));
-        let scores = scores.iter();
+        let scores = scores
+            .iter()
+            .filter(|own| is_possible(own.cause, own.value));
         let scores = scores.map(|score| (name(score.cause), *score));
         let tested = consistency.map(|found| {
             let tail = chi_squared_tail(found.q, found.freedom);

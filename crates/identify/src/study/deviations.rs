@@ -63,6 +63,19 @@ impl Study {
         }
     }
 
+    /// Whether a cause has no value below zero: the mass of an accelerometer that the functions are not freed of.
+    pub(crate) fn is_never_negative(&self, cause: Cause) -> bool {
+        let is_freed =
+            |file: Option<&FrfFile>| file.is_some_and(|file| file.accelerometer.is_some());
+        match cause {
+            Cause::Accelerometer(MeasuredSet::Assembly(number)) => {
+                !is_freed(self.assembly_file(number))
+            }
+            Cause::Accelerometer(MeasuredSet::Of(side)) => !is_freed(self.side(side).file()),
+            _ => false,
+        }
+    }
+
     fn side(&self, side: Side) -> &Substructure {
         match side {
             Side::A => &self.a,

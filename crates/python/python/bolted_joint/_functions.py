@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 from ._archive import unit
 from ._command import BoltedJointError
 from ._html import table
-from ._values import listed, number
+from ._values import limit, listed, number, one_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Each is the one before it, differentiated by time.
-_QUANTITIES = ("receptance", "mobility", "accelerance")
+QUANTITIES = ("receptance", "mobility", "accelerance")
 
 
 class Functions:
@@ -120,8 +120,8 @@ class Functions:
         self,
         responses: Sequence[str] | str | None = None,
         references: Sequence[str] | str | None = None,
-        from_hz: float = 0.0,
-        to_hz: float = np.inf,
+        from_hz: float | None = None,
+        to_hz: float | None = None,
     ) -> "Functions":
         """Some of the functions, on some of the lines.
 
@@ -129,12 +129,18 @@ class Functions:
         ----------
         responses, references : sequence of str, or str
             Their DOFs, or one DOF; all if they are left out.
-        from_hz, to_hz : float
-            First and last frequency, Hz.
+        from_hz, to_hz : float, optional
+            First and last frequency, Hz; no limit where one is left out or None.
+
+        Raises
+        ------
+        BoltedJointError
+            If there is no such DOF, or a limit is no number.
         """
         responses = self.responses if responses is None else listed("responses", responses)
         references = self.references if references is None else listed("references", references)
-        lines = (self.frequency_hz >= from_hz) & (self.frequency_hz <= to_hz)
+        first, last = limit("from_hz", from_hz, -np.inf), limit("to_hz", to_hz, np.inf)
+        lines = (self.frequency_hz >= first) & (self.frequency_hz <= last)
         rows = np.array([_index(self.responses, name) for name in responses], dtype=np.intp)
         columns = np.array([_index(self.references, name) for name in references], dtype=np.intp)
         part = np.ix_(np.flatnonzero(lines), rows, columns)
@@ -160,7 +166,7 @@ class Functions:
             What is asked for. A line at 0 Hz is left out where that divides by the frequency.
         """
         _known_quantity(quantity)
-        power = _QUANTITIES.index(quantity) - _QUANTITIES.index(self.quantity)
+        power = QUANTITIES.index(quantity) - QUANTITIES.index(self.quantity)
         if power == 0:
             return self
         lines = self.frequency_hz > 0.0 if power < 0 else np.full(self.frequency_hz.shape, True)
@@ -295,8 +301,7 @@ class Functions:
 
 
 def _known_quantity(quantity: str) -> None:
-    if quantity not in _QUANTITIES:
-        raise BoltedJointError(f"quantity: found {quantity!r}, expected one of {', '.join(_QUANTITIES)}")
+    one_of("quantity", quantity, QUANTITIES)
 
 
 def _names(argument: str, names: Sequence[str]) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from ._functions import Functions
 from ._joint import Joint
 from ._read import together
 from ._study import AnyStudy, Study, tables_of
+from ._values import place_of
 
 
 def functions_of(study: AnyStudy, assembly: int) -> Functions:
@@ -67,10 +68,7 @@ def _known(joint: Any, joints: Mapping[str, Joint]) -> list[dict[str, Any]]:
 
 
 def _place(tables: Study, assembly: int) -> int:
-    count = len(assemblies(tables))
-    if not 0 <= assembly < count:
-        raise BoltedJointError(f"assembly: found {assembly}, expected a number from 0 to {count - 1}")
-    return assembly
+    return place_of("assembly", assembly, len(assemblies(tables)))
 
 
 def _listed(value: Any) -> list[Any]:

@@ -106,6 +106,39 @@ def test_a_study_in_millimetres_is_measured_in_metres(short, tmp_path):
     assert 0.5 < np.median(ratio) < 2.0
 
 
+def test_functions_are_regenerated_at_the_lines_of_the_measured_ones(short):
+    whole = short["assembly"]["frf"]
+    # lines that no step has, of which the study uses some
+    some = np.delete(np.arange(len(whole.frequency_hz)), [5, 6, 9])
+    uneven = Functions(whole.frequency_hz[some], whole.values[some], whole.responses, whole.references)
+    factor = (2j * np.pi * uneven.frequency_hz[:, None, None]) ** 2
+    short["assembly"] |= {"frf": with_values(uneven, uneven.values * factor, quantity="accelerance")}
+    short["assembly"] |= {"quantity": "accelerance", "averages": 4}
+    short["frequency"] = {"from": 20, "to": 400}
+    found = bolted_joint.identify(short)
+    measured = found.measured()
+    regenerated = found.regenerated(at=measured)
+    np.testing.assert_array_equal(regenerated.frequency_hz, measured.frequency_hz)
+    assert (regenerated.responses, regenerated.references) == (measured.responses, measured.references)
+    inside = (measured.frequency_hz >= 20) & (measured.frequency_hz <= 400)
+    left = np.abs(measured.values - regenerated.values)[inside]
+    assert np.median(left / np.abs(measured.values[inside])) < 0.1
+    # what is computed at a line does not depend on the others
+    of_steps = found.regenerated(5.0)
+    at_steps = found.regenerated(at=of_steps.frequency_hz[3:9].tolist())
+    np.testing.assert_allclose(at_steps.values, of_steps.values[3:9], rtol=1e-12)
+    for wrong, said in [
+        ([3.0], "at: found 1 lines from 3 Hz on, expected two lines or more above 0 Hz"),
+        ([0.0, 1.0], "at: found 2 lines from 0 Hz on, expected two"),
+        ([3.0, 1.0], "at: found 1 at line 1 after 3, expected frequencies that increase"),
+        ("a", "at: found what is no array of numbers"),
+    ]:
+        with pytest.raises(BoltedJointError, match=said):
+            found.regenerated(at=wrong)
+    with pytest.raises(BoltedJointError, match=r"at: found it beside step_hz \(2.0\), expected one of them"):
+        found.regenerated(2.0, at=measured)
+
+
 def test_accelerance_is_drawn_as_the_receptance_that_it_is(short):
     whole = short["assembly"]["frf"]
     # A = (iω)² H
@@ -148,6 +181,8 @@ def test_each_of_several_assemblies_is_measured_and_regenerated_at_its_torque(sh
         del alone["joint"]["torques"]
         expected = bolted_joint.respond(alone, found.joint.at_preload(torque), step_hz=5)
         np.testing.assert_array_equal(found.regenerated(5, assembly).values, expected.values)
+        at = found.regenerated(assembly=assembly, at=expected.frequency_hz)
+        np.testing.assert_array_equal(at.values, expected.values)
     labels = [line.get_label() for line in found.plot(assembly=1).axes[0].lines]
     assert "13:+Y/13:+Y measured, assembly 1" in labels and "13:+Y/13:+Y identified, assembly 1" in labels
     with pytest.raises(BoltedJointError, match="found 2, expected a number from 0 to 1"):
@@ -159,8 +194,9 @@ def test_of_a_lap_frequencies_are_drawn():
     found = bolted_joint.identify(ROOT / "examples/pirdayr-update/with-a-mass.toml")
     with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
         found.measured()
-    with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
-        found.regenerated()
+    for options in ({}, {"at": [1, 2]}):
+        with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
+            found.regenerated(**options)
     (axes,) = found.plot().axes
     curves = {line.get_label(): line for line in axes.lines}
     # 639 and 691 rad/s at 2 and 8 N·m, in Table 4
@@ -205,6 +241,9 @@ def test_of_a_joint_in_space_functions_are_regenerated(tmp_path):
     found = bolted_joint.identify(study)
     close(found.measured(), functions)
     regenerated = found.regenerated(20)
+    for lines in (slice(None), np.r_[0, 2, 5]):
+        at = found.regenerated(at=regenerated.frequency_hz[lines])
+        np.testing.assert_array_equal(at.values, regenerated.values[lines])
     scale = np.abs(functions.values).max()
     np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * scale)
     assert found.plot().axes[0].lines
@@ -244,4 +283,5 @@ def test_bolts_that_differ_have_a_joint_each():
     np.testing.assert_allclose(found.joints["right"].stiffness, joints["right"].stiffness, rtol=1e-3, atol=1.0)
     regenerated = found.regenerated(4)
     np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * np.abs(functions.values).max())
+    np.testing.assert_array_equal(found.regenerated(at=functions).values, regenerated.values)
     assert found.plot().axes[0].lines

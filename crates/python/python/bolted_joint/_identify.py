@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._command import BoltedJointError, NotUsableWarning, in_page, run
-from ._functions import Functions
+from ._functions import Functions, lines_of
 from ._joint import Joint
-from ._measured import assemblies, functions_of, with_joints
+from ._measured import assemblies, functions_of, with_joints, with_lines
 from ._respond import answered, of_step
 from ._study import AnyStudy, Study, as_file, settled, tables_of
 from ._values import whole
@@ -74,8 +75,12 @@ class Identification:
         """
         return functions_of(self._study, assembly)
 
-    def regenerated(self, step_hz: float | None = None, assembly: int = 0) -> Functions:
+    def regenerated(
+        self, step_hz: float | None = None, assembly: int = 0, *, at: Functions | ArrayLike | None = None
+    ) -> Functions:
         """The functions that the assembly would have with what was identified, as receptances.
+
+        ``regenerated(at=found.measured())`` has the lines of what was measured: values that may be subtracted.
 
         Parameters
         ----------
@@ -83,12 +88,18 @@ class Identification:
             Distance between the lines, Hz; 0.25, or in space that of the measured ones, if it is left out.
         assembly : int
             Which of the study's assemblies, from 0 on. A joint over the preload is taken at its torque.
+        at : Functions or array of shape (F,), optional
+            In place of `step_hz` the lines, Hz, above 0 and increasing: those of functions, or frequencies themselves.
+            Nothing is interpolated. What a study says of lines to use does not count for them. A structure whose
+            functions were measured has to have these lines.
 
         Raises
         ------
         BoltedJointError
-            If no functions were measured, as for laps.
+            If no functions were measured, as for laps, or if something has no such lines.
         """
+        if at is not None:
+            return self._at(at, step_hz, assembly)
         study = with_joints(self._study, self.joints, assembly)
         joints = None if study["method"] == "frf-space" else self.joints
         has_lines = joints is not None or any("frf" in part for part in study.values() if isinstance(part, Mapping))
@@ -97,6 +108,23 @@ class Identification:
             step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
         # that the result is not to be relied on `identify` has told
         response = answered(study, joints, of_step(step_hz), quiet=NotUsableWarning)
+        assert isinstance(response, Functions)
+        return response
+
+    def _at(self, at: Functions | ArrayLike, step_hz: float | None, assembly: int) -> Functions:
+        """The functions that the assembly would have, at these lines."""
+        if step_hz is not None:
+            raise BoltedJointError(f"at: found it beside step_hz ({step_hz!r}), expected one of them")
+        frequency_hz = at.frequency_hz if isinstance(at, Functions) else lines_of("at", at)
+        if isinstance(at, Functions):
+            # static receptances are measured of nothing
+            frequency_hz = frequency_hz[frequency_hz > 0.0]
+        if len(frequency_hz) < 2 or frequency_hz[0] <= 0.0:
+            found = f"{len(frequency_hz)} lines" + (f" from {frequency_hz[0]:g} Hz on" if len(frequency_hz) else "")
+            raise BoltedJointError(f"at: found {found}, expected two lines or more above 0 Hz")
+        study = with_lines(self._study, self.joints, assembly, frequency_hz)
+        joints = None if study["method"] == "frf-space" else self.joints
+        response = answered(study, joints, [], quiet=NotUsableWarning)
         assert isinstance(response, Functions)
         return response
 

@@ -166,7 +166,7 @@ def merge(
             arguments += ["--report", str(page)]
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details: dict[str, Any] = run(arguments, shown)
-        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else None
         if command == "identify":
             return found_in(Path(folder), "merged", given, details, html)
         return Prediction(Joint.read(output), details, html)

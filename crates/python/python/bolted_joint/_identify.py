@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ._command import BoltedJointError, NotUsableWarning, in_page, run
 from ._functions import Functions, lines_of
+from ._html import asked
 from ._joint import Joint
 from ._measured import assemblies, functions_of, with_joints, with_lines
 from ._respond import answered, of_step
@@ -34,15 +35,13 @@ class Identification:
         Why not.
     details : dict
         All that ``bolted-joint identify --json`` prints: models compared, budget, lines used.
-    report_html : str
-        The report: one page with everything that was measured, assumed and found. Empty where none was asked for.
     """
 
-    def __init__(self, study: Study, joints: dict[str, Joint], details: dict[str, Any], report_html: str):
+    def __init__(self, study: Study, joints: dict[str, Joint], details: dict[str, Any], report_html: str | None):
         self._study = study
         self.joints = joints
         self.details = details
-        self.report_html = report_html
+        self._report_html = report_html
         first = next(iter(joints.values()))
         self.usable = bool(details.get("usable", first.usable))
         self.reasons_against: tuple[str, ...] = tuple(details.get("reasons_against", first.reasons_against))
@@ -59,6 +58,17 @@ class Identification:
         if len(self.joints) != 1:
             raise ValueError(f"found joints of {', '.join(self.joints)}; take one of them from joints")
         return next(iter(self.joints.values()))
+
+    @property
+    def report_html(self) -> str:
+        """The report: one page with everything that was measured, assumed and found.
+
+        Raises
+        ------
+        BoltedJointError
+            If none was asked for: ``identify(..., report=True)``.
+        """
+        return asked(self._report_html, "report_html", "report", "identify and merge make")
 
     def measured(self, assembly: int = 0) -> Functions:
         """The functions of the assembly that were measured, as receptances in SI units.
@@ -215,7 +225,7 @@ def identify(
             arguments += ["--report", str(page)]
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details = run(arguments, shown)
-        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else None
         return found_in(Path(folder), "identified", given, details, html)
 
 
@@ -235,7 +245,7 @@ def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
     return options if seed is None else [*options, "--seed", str(whole("seed", seed, 0))]
 
 
-def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str) -> Identification:
+def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str | None) -> Identification:
     """The joint files that a command has written into a folder, as `stem`.joint.json or `stem`.BOLT.joint.json."""
     joints = {
         file.name.removeprefix(stem).removesuffix("joint.json").strip("."): Joint.read(file)

@@ -68,6 +68,26 @@ def test_copies_of_a_study_keep_its_folder(short):
     assert bolted_joint.identify(short.copy()).usable
 
 
+def test_what_is_changed_in_a_copy_of_a_study_is_not_in_the_study(short):
+    short["joint"]["guess"] = bolted_joint.Joint.read(ROOT / "tests/data/joint/m10-aluminium.joint.json")
+    short["extra"] = {"list": [{"x": 1}], "pair": (1, {"x": 1}), "array": np.ones(2)}
+    whole = short["assembly"]["frf"]
+    other = short.copy()
+    assert other["assembly"]["frf"] is whole and other["extra"]["pair"] == (1, {"x": 1})
+    other["assembly"]["frf"] = "other.uff"
+    other["extra"]["list"][0]["x"] = other["extra"]["pair"][1]["x"] = 2
+    other["extra"]["array"][:] = 2.0
+    other["joint"]["guess"].data["name"] = "other"
+    assert short["assembly"]["frf"] is whole and short["joint"]["guess"].name != "other"
+    assert short["extra"]["list"] == [{"x": 1}] and short["extra"]["pair"][1] == {"x": 1}
+    assert short["extra"]["array"].tolist() == [1.0, 1.0]
+    # as Python has it
+    shallow, deep = copy.copy(short), copy.deepcopy(short)
+    assert shallow["assembly"] is short["assembly"] and deep["assembly"] is not short["assembly"]
+    for one in (shallow, deep):
+        assert isinstance(one, bolted_joint.Study) and one.folder == short.folder
+
+
 @pytest.mark.parametrize("kind", ["paths", "functions", "both"])
 def test_functions_in_several_files_are_one_measurement(short, tmp_path, kind):
     whole = short["assembly"]["frf"]

@@ -52,8 +52,12 @@ class Study(dict[str, Any]):
         self.folder = Path(folder).resolve()
 
     def copy(self) -> "Study":
-        """The same tables in a study of its own, with the same folder; tables within tables are shared."""
-        return Study(self)
+        """The same study once more, in the same folder: what is changed in one is not in the other.
+
+        Tables within tables, lists, arrays and joints are copied; `Functions`, which are not changed once they are made,
+        are shared. A copy that shares its tables, as that of a dictionary does, is ``copy.copy(study)``.
+        """
+        return Study(_copied(self), self.folder)
 
     def __or__(self, other: Any) -> Any:
         """These tables with those of `other` in their place, in the folder of this study."""
@@ -100,16 +104,17 @@ def tables_of(study: AnyStudy) -> Study:
 
 def settled(study: Mapping[str, Any]) -> Study:
     """A study as it is now: whatever is done to the one that was given, or to the current folder, it stays the same."""
-    tables = tables_of(study)
-    return Study(_copied(tables), tables.folder)
+    return tables_of(study).copy()
 
 
 def _copied(value: Any) -> Any:
     """A value with dictionaries, lists, arrays and joints of its own; functions are not changed once they are made."""
     if isinstance(value, Mapping):
         return {name: _copied(inner) for name, inner in value.items()}
-    if isinstance(value, list | tuple):
+    if isinstance(value, list):
         return [_copied(inner) for inner in value]
+    if isinstance(value, tuple):
+        return tuple(_copied(inner) for inner in value)
     if isinstance(value, np.ndarray):
         return value.copy()
     return Joint(copy.deepcopy(value.data)) if isinstance(value, Joint) else value

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _archive, _matlab73, _native
-from ._command import BoltedJointError, path_of, run
+from ._command import BoltedJointError, native, path_of, run
 from ._functions import QUANTITIES, Functions
 from ._values import number, one_of
 
@@ -141,7 +141,9 @@ def _curves(
     """Functions of one file; by `units` where they are given, else by those that the file states."""
     with _matlab73.archive(path) if _matlab73.is_one(path) else contextlib.nullcontext(path) as source:
         try:
-            read, read_coherences, stated, has_units = _native.read_functions(source, quantity, averages)
+            read, read_coherences, stated, has_units = native(
+                _native.read_functions, source, quantity, averages
+            )
         except ValueError as error:
             raise BoltedJointError(str(error).replace(os.fspath(source), os.fspath(path))) from error
         of_file = (1.0, 1.0)

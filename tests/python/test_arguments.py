@@ -1,12 +1,14 @@
 """Arguments that are not what is expected are refused by their names in Python."""
 
 import pathlib
+import re
 
 import numpy as np
 import pytest
 
 import bolted_joint
 from bolted_joint import BoltedJointError, Functions, Joint
+from bolted_joint._words import in_python
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 M10 = ROOT / "tests/data/joint/m10-aluminium.joint.json"
@@ -71,7 +73,7 @@ WRONG = {
     "rng below 0": (lambda: Joint.read(M10).draw(-1), "rng: found -1, expected a whole number from 0 on"),
     "a table as a joint": (lambda: Joint.read(CSV), r"table\.csv: found a table .*, expected a joint file"),
     "a study as a joint": (lambda: Joint.read(PLAN), r"study\.toml: found a study of .*, expected a joint"),
-    "no file as a joint": (lambda: Joint.read("nowhere.json"), r"nowhere\.json: cannot be read: .*path of a joint file"),
+    "no file as a joint": (lambda: Joint.read("nowhere.json"), r"nowhere\.json: cannot be read: .* of a joint file"),
     "nodes": (lambda: bolted_joint.convert(M10, "nastran", "x", nodes=(1, -2)), "nodes: found -2, expected a whole"),
 }
 
@@ -83,6 +85,46 @@ def test_what_is_wrong_is_named_as_python_has_it(name, monkeypatch, tmp_path):
     with pytest.raises(BoltedJointError, match=said) as refused:
         call()
     assert "--" not in str(refused.value) and "Usage" not in str(refused.value)
+
+
+def test_messages_of_the_command_line_name_what_python_has(short, tmp_path):
+    unusable, over = Joint.read(M10), ROOT / "tests/data/joint/torques.joint.json"
+    unusable.data["status"] = {"usable": False, "reasons": ["it rattles"]}
+    part = bolted_joint.draw(short, range(2), bootstrap=6)
+    for call, said in [
+        (lambda: bolted_joint.respond(short), "^joint: found nothing, expected the joint file"),
+        (lambda: bolted_joint.respond(short, M10, step_hz=-1), "^step_hz: found -1, expected a positive distance"),
+        (lambda: bolted_joint.draw(short, range(15, 25), bootstrap=20), "^numbers: found 15.* bootstrap states"),
+        (lambda: bolted_joint.merge(short, [part]), r"expected all of 0\.\.6; make them with `draw`"),
+        (lambda: bolted_joint.export(unusable, tmp_path / "x.fmu"), "or insist with unusable=True"),
+        (lambda: bolted_joint.convert(over, "nastran", tmp_path / "x.bdf"), "at one preload: preload_n_m=TORQUE"),
+        (lambda: bolted_joint.convert(M10, "nastran", tmp_path / "x.bdf", nodes=(7, 7)), "^nodes: found 7,7"),
+        (lambda: bolted_joint.compare(CSV, M10), "expected a joint file .*; `show` takes it"),
+    ]:
+        with pytest.raises(BoltedJointError, match=said) as refused:
+            call()
+        assert not re.search("--|bolted-joint ", str(refused.value)), refused.value
+
+
+@pytest.mark.parametrize(
+    ("message", "expected"),
+    [
+        ("extrapolate: found it; leave --extrapolate out", "extrapolate: found it; leave extrapolate=True out"),
+        ("--extrapolate: found it, expected none", "extrapolate: found it, expected none"),
+        ("--no-rivals: found it", "rivals=False: found it"),
+        ("invalid value 'x' for '--step <HZ>'\n\nUsage: bolted-joint respond", "invalid value 'x' for 'step_hz <HZ>'"),
+        ("`identify --report` draws them", "`identify(..., report=True)` draws them"),
+        ("`bolted-joint respond --plan` says", "`respond(..., plan=True)` says"),
+        ("one preload (`export --preload`)", "one preload (`export(..., preload_n_m=...)`)"),
+        ("`bolted-joint identify a b.toml -o NAME.joint.json` takes it", "`identify` takes it"),
+        ("`--step` at the command line, such as `--step 1`", "`step_hz`, such as `step_hz=1`"),
+        # what Python does not have, and names of files
+        ("--neighbour: found", "--neighbour: found"),
+        ("a/--joint b.csv: found x--joint", "a/--joint b.csv: found x--joint"),
+    ],
+)
+def test_options_and_commands_become_arguments_and_functions(message, expected):
+    assert in_python(message) == expected
 
 
 def test_a_joint_takes_arrays_as_a_study_does(tmp_path):

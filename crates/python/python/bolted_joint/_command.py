@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from . import _native
+from ._words import in_python
 
 _PLATFORMS = Path(__file__).with_name("platforms")
 
@@ -102,7 +103,7 @@ def run(
     Raises
     ------
     BoltedJointError
-        With the command line's message.
+        With the command line's message, in this module's words.
     KeyboardInterrupt
         At Ctrl-C. Work that takes long then ends by itself.
     """
@@ -112,7 +113,7 @@ def run(
     errors = []
     told: list[tuple[str, type[Warning]]] = []
     for message in messages:
-        message = in_words(message, shown)
+        message = in_words(in_python(message), shown)
         if message.startswith("warning: "):
             told.append((message.removeprefix("warning: "), UserWarning))
         else:

@@ -1,15 +1,19 @@
 """Arguments that are not what is expected are refused by their names in Python."""
 
 import pathlib
+import re
 
 import numpy as np
 import pytest
 
 import bolted_joint
 from bolted_joint import BoltedJointError, Functions, Joint
+from bolted_joint._words import in_python
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 M10 = ROOT / "tests/data/joint/m10-aluminium.joint.json"
+CSV = ROOT / "tests/data/arrays/table.csv"
+ONE = Functions([1.0], [1.0], ["1:+Y"], ["1:+Y"])
 PLAN = ROOT / "examples/plan-in-space/study.toml"
 
 
@@ -54,6 +58,22 @@ WRONG = {
     "interface": (lambda: bolted_joint.export(M10, "x.fmu", interface="a"), "interface: .*one of element, lap"),
     "preload": (lambda: bolted_joint.compare(M10, M10, preload_n_m="x"), "preload_n_m: found 'x', expected a finite"),
     "tool": (lambda: bolted_joint.convert(M10, "adams", "x"), "tool: found 'adams', expected one of nastran, abaqus"),
+    "units of a text": (lambda: bolted_joint.read(CSV, units="mm"), "units: found 'mm', expected a dictionary such as"),
+    "units of a list": (lambda: bolted_joint.read(CSV, units=["mm", "N"]), "units: found .*, expected a dictionary"),
+    "units of a number": (lambda: bolted_joint.read(CSV, units=3), "units: found 3, expected a dictionary"),
+    "a unit of a list": (lambda: bolted_joint.read(CSV, units={"length": []}), "units.length: found .*, expected one"),
+    "quantity": (lambda: bolted_joint.read(CSV, quantity=5), "quantity: found 5, expected one of receptance, mobility"),
+    "an array as a quantity": (lambda: ONE.as_quantity(np.zeros(2)), "quantity: found array.*expected one of recep"),
+    "an open file": (lambda: bolted_joint.read(CSV.open()), r"path: found an open file \(.*\.csv\), expected its path"),
+    "an open coherence": (lambda: bolted_joint.read(CSV, coherence=CSV.open()), "coherence: found an open file"),
+    "from": (lambda: ONE.select(from_hz="a"), "from_hz: found 'a', expected a number, or None for no limit"),
+    "to": (lambda: ONE.select(to_hz=np.nan), "to_hz: found nan, expected a number, or None for no limit"),
+    "responses": (lambda: ONE.select(3), "responses: found 3, expected a text or a list of texts"),
+    "rng of a text": (lambda: Joint.read(M10).draw("a"), "rng: .* str, expected a numpy.random.Generator, .* its seed"),
+    "rng below 0": (lambda: Joint.read(M10).draw(-1), "rng: found -1, expected a whole number from 0 on"),
+    "a table as a joint": (lambda: Joint.read(CSV), r"table\.csv: found a table .*, expected a joint file"),
+    "a study as a joint": (lambda: Joint.read(PLAN), r"study\.toml: found a study of .*, expected a joint"),
+    "no file as a joint": (lambda: Joint.read("nowhere.json"), r"nowhere\.json: cannot be read: .* of a joint file"),
     "nodes": (lambda: bolted_joint.convert(M10, "nastran", "x", nodes=(1, -2)), "nodes: found -2, expected a whole"),
 }
 
@@ -65,6 +85,46 @@ def test_what_is_wrong_is_named_as_python_has_it(name, monkeypatch, tmp_path):
     with pytest.raises(BoltedJointError, match=said) as refused:
         call()
     assert "--" not in str(refused.value) and "Usage" not in str(refused.value)
+
+
+def test_messages_of_the_command_line_name_what_python_has(short, tmp_path):
+    unusable, over = Joint.read(M10), ROOT / "tests/data/joint/torques.joint.json"
+    unusable.data["status"] = {"usable": False, "reasons": ["it rattles"]}
+    part = bolted_joint.draw(short, range(2), bootstrap=6)
+    for call, said in [
+        (lambda: bolted_joint.respond(short), "^joint: found nothing, expected the joint file"),
+        (lambda: bolted_joint.respond(short, M10, step_hz=-1), "^step_hz: found -1, expected a positive distance"),
+        (lambda: bolted_joint.draw(short, range(15, 25), bootstrap=20), "^numbers: found 15.* bootstrap states"),
+        (lambda: bolted_joint.merge(short, [part]), r"expected all of 0\.\.6; make them with `draw`"),
+        (lambda: bolted_joint.export(unusable, tmp_path / "x.fmu"), "or insist with unusable=True"),
+        (lambda: bolted_joint.convert(over, "nastran", tmp_path / "x.bdf"), "at one preload: preload_n_m=TORQUE"),
+        (lambda: bolted_joint.convert(M10, "nastran", tmp_path / "x.bdf", nodes=(7, 7)), "^nodes: found 7,7"),
+        (lambda: bolted_joint.compare(CSV, M10), "expected a joint file .*; `show` takes it"),
+    ]:
+        with pytest.raises(BoltedJointError, match=said) as refused:
+            call()
+        assert not re.search("--|bolted-joint ", str(refused.value)), refused.value
+
+
+@pytest.mark.parametrize(
+    ("message", "expected"),
+    [
+        ("extrapolate: found it; leave --extrapolate out", "extrapolate: found it; leave extrapolate=True out"),
+        ("--extrapolate: found it, expected none", "extrapolate: found it, expected none"),
+        ("--no-rivals: found it", "rivals=False: found it"),
+        ("invalid value 'x' for '--step <HZ>'\n\nUsage: bolted-joint respond", "invalid value 'x' for 'step_hz <HZ>'"),
+        ("`identify --report` draws them", "`identify(..., report=True)` draws them"),
+        ("`bolted-joint respond --plan` says", "`respond(..., plan=True)` says"),
+        ("one preload (`export --preload`)", "one preload (`export(..., preload_n_m=...)`)"),
+        ("`bolted-joint identify a b.toml -o NAME.joint.json` takes it", "`identify` takes it"),
+        ("`--step` at the command line, such as `--step 1`", "`step_hz`, such as `step_hz=1`"),
+        # what Python does not have, and names of files
+        ("--neighbour: found", "--neighbour: found"),
+        ("a/--joint b.csv: found x--joint", "a/--joint b.csv: found x--joint"),
+    ],
+)
+def test_options_and_commands_become_arguments_and_functions(message, expected):
+    assert in_python(message) == expected
 
 
 def test_a_joint_takes_arrays_as_a_study_does(tmp_path):
@@ -80,6 +140,29 @@ def test_a_joint_takes_arrays_as_a_study_does(tmp_path):
     joint.data["joint"]["stiffness"][0, 0] = np.nan
     with pytest.raises(BoltedJointError, match=r'data\["joint"\]\["stiffness"\]\[0\]\[0\]: found nan'):
         joint.save(tmp_path / "x.joint.json")
+
+
+def test_no_limit_may_be_said(short):
+    whole = short["assembly"]["frf"]
+    for part in (whole.select(from_hz=None, to_hz=None), whole.select(from_hz=0, to_hz=np.inf)):
+        np.testing.assert_array_equal(part.values, whole.values)
+    assert whole.select(to_hz=np.float32(100)).frequency_hz[-1] <= 100
+
+
+def test_a_whole_number_is_the_seed_of_a_draw(demo):
+    joint = Joint.read(demo / "m10x16.joint.json")
+    expected = joint.draw(np.random.default_rng(3)).stiffness
+    for seed in (3, np.int64(3)):
+        np.testing.assert_array_equal(joint.draw(seed).stiffness, expected)
+    assert joint.draw(4).stiffness[0, 0] != expected[0, 0]
+
+
+def test_an_assembly_is_a_number(short):
+    found = bolted_joint.identify(short)
+    assert found.measured(np.int64(0)).responses == found.measured().responses
+    for wrong in ("a", 1, -1, True, None, 0.0):
+        with pytest.raises(BoltedJointError, match="assembly: found .*, expected a number from 0 to 0"):
+            found.measured(wrong)
 
 
 def test_a_text_that_is_no_path_is_no_files(demo, tmp_path):

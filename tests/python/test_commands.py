@@ -139,6 +139,31 @@ def test_a_result_that_is_not_to_be_relied_on_says_so(demo):
     assert not found.usable and found.reasons_against and not found.joint.usable
 
 
+class PanicException(BaseException):
+    """As the compiled part raises it in the thread of the call."""
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, PanicException])
+def test_a_mistake_of_the_modules_own_is_its_exception(demo, monkeypatch, kind):
+    def broken(*_):
+        raise kind("out of bounds")
+
+    names = ("call", "read_functions", "to_json", "to_toml", "command_of")
+    for name in names:
+        monkeypatch.setattr(bolted_joint._native, name, broken)
+    calls = (
+        lambda: bolted_joint.identify(demo / "study.toml"),
+        lambda: bolted_joint.read(demo / "assembly.uff"),
+        lambda: bolted_joint.Study.parse("x = 1"),
+        lambda: bolted_joint.identify({"x": 1}),
+        lambda: bolted_joint.draw(demo / "study.toml", range(2), bootstrap=2),
+    )
+    for call in calls:
+        with pytest.raises(bolted_joint.BoltedJointError, match="internal error: out of bounds; please report") as told:
+            call()
+        assert isinstance(told.value.__context__, kind) or isinstance(told.value.__cause__.__cause__, kind)
+
+
 def test_other_threads_run_meanwhile(demo):
     counted, done = [0], threading.Event()
 

@@ -57,8 +57,12 @@ def test_draws_that_do_not_belong_together_are_refused(short):
         bolted_joint.merge(short, [*parts, last])
     with pytest.raises(bolted_joint.BoltedJointError, match="expected a range"):
         bolted_joint.draw(short, range(0, 6, 2), bootstrap=6)
-    with pytest.raises(bolted_joint.BoltedJointError, match="--draws"):
+    with pytest.raises(bolted_joint.BoltedJointError, match="bootstrap: found nothing, expected how many draws"):
         bolted_joint.draw(short, range(2))
+    with pytest.raises(bolted_joint.BoltedJointError, match=r"bootstrap: found 4, .*uncertainty\.draws"):
+        bolted_joint.draw(FOUR_BOLTS, range(2), bootstrap=4)
+    with pytest.raises(bolted_joint.BoltedJointError, match="study: found one for respond, expected one for identify"):
+        bolted_joint.draw({"method": "respond"}, range(2))
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -1,6 +1,7 @@
 """Functions as arrays: what is read, what is refused."""
 
 import pathlib
+import re
 import warnings
 
 import numpy as np
@@ -13,6 +14,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 F = np.array([1.0, 2.0, 4.0])
 H = np.arange(12).reshape(3, 2, 2) * (1.0 + 0.5j) + 1.0
 NAMES = ["1:+Y", "2:+Y"]
+
+
+def with_one(wrong):
+    """Values of which one is wrong."""
+    values = H.copy()
+    values[1, 0, 1] = wrong
+    return values
 
 
 def test_what_is_saved_is_read_to_the_bit(tmp_path):
@@ -125,12 +133,50 @@ def test_functions_that_were_not_measured_are_told(tmp_path):
         ((F, H[:2], NAMES, NAMES), r"shape \(2, 2, 2\), expected \(3, 2, 2\)"),
         ((F, H, NAMES[0], NAMES), "expected a list of DOFs"),
         (([F], H, NAMES, NAMES), "expected one axis"),
+        (([1.0, 4.0, 2.0], H, NAMES, NAMES), "frequency_hz: found 2 at line 2 after 4, .* increase; sort the l"),
+        (([1.0, 2.0, 2.0], H, NAMES, NAMES), "frequency_hz: found 2 at line 2 after 2, expected .* increase"),
+        (([1.0, np.nan, 2.0], H, NAMES, NAMES), "frequency_hz: found nan at line 1, expected finite frequencies in Hz"),
+        (([1.0, 2.0, np.inf], H, NAMES, NAMES), "frequency_hz: found inf at line 2, expected finite frequencies in Hz"),
+        (([-1.0, 2.0, 4.0], H, NAMES, NAMES), "frequency_hz: found -1.0 at line 0, expected .* from 0 on"),
+        ((F, H, NAMES, ["1:+Y", "1:Y"]), "references: found '1:Y' twice, expected each DOF once"),
+        ((F, H, ["2:rz", " 2:+RZ"], NAMES), r"responses: found ' 2:\+RZ' twice, expected each DOF once"),
+        ((F, H, [("1", "Y"), "2:+Y"], NAMES), r"responses: found \('1', 'Y'\), expected NODE:DIRECTION such"),
+        ((F, H, [1, 2], NAMES), "responses: found 1, expected NODE:DIRECTION"),
+        ((F, H, ["1", "2:+Y"], NAMES), "responses: found '1', expected NODE:DIRECTION"),
+        ((F, H, NAMES, ["1:+W", "2:+Y"]), r"references: found '1:\+W', expected NODE:DIRECTION"),
+        ((F, H, 5, NAMES), "responses: found 5, expected a list of DOFs"),
+        ((F, with_one(np.nan), NAMES, NAMES), r"values: found .nan.* at line 1 \(2 Hz\) of 1:\+Y/2:\+Y, expected"),
+        ((F, with_one(np.inf), NAMES, NAMES), r"values: found .inf.* at line 1 \(2 Hz\) of 1:\+Y/2:\+Y, .* leave"),
     ],
-    ids=["lines", "one text", "axes"],
 )
-def test_shapes_that_do_not_fit_are_refused(arguments, said):
-    with pytest.raises(BoltedJointError, match=said):
+def test_arrays_that_are_no_functions_are_refused(arguments, said):
+    with pytest.raises(BoltedJointError, match=said) as refused:
         Functions(*arguments)
+    # no file that nobody has made
+    assert not re.search(r"npz|\barray [a-z]+:", str(refused.value))
+
+
+def test_no_function_is_no_file(short, tmp_path):
+    none = short["assembly"]["frf"].select(from_hz=1e9)
+    short["assembly"]["frf"] = none
+    path = tmp_path / "a.csv"
+    for call in (lambda: bolted_joint.identify(short), lambda: bolted_joint.show(none), lambda: none.save(path)):
+        with pytest.raises(BoltedJointError, match="functions: found 0 lines, .* expected one function on one line"):
+            call()
+
+
+def test_coherence_is_a_part():
+    for wrong in (1.5, -0.1, np.inf):
+        with pytest.raises(BoltedJointError, match=r"coherence: found .* at line 0 \(1 Hz\) .* γ² from 0 to 1"):
+            Functions(F, H, NAMES, NAMES, coherence=np.full(H.shape, wrong))
+
+
+@pytest.mark.parametrize("names", [["1:y", "1:-RZ"], ["7:0", " 8:-x "], ["1:+Y", "1:-Y"]])
+def test_degrees_of_freedom_are_those_of_files(tmp_path, names):
+    functions = Functions(F, H, names, np.array(names))
+    functions.save(tmp_path / "a.npz")
+    # the command line takes them too
+    assert len(bolted_joint.read(tmp_path / "a.npz")) == 4
 
 
 def test_unknown_quantities_files_and_names_are_refused(tmp_path):

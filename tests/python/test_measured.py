@@ -68,6 +68,26 @@ def test_copies_of_a_study_keep_its_folder(short):
     assert bolted_joint.identify(short.copy()).usable
 
 
+def test_what_is_changed_in_a_copy_of_a_study_is_not_in_the_study(short):
+    short["joint"]["guess"] = bolted_joint.Joint.read(ROOT / "tests/data/joint/m10-aluminium.joint.json")
+    short["extra"] = {"list": [{"x": 1}], "pair": (1, {"x": 1}), "array": np.ones(2)}
+    whole = short["assembly"]["frf"]
+    other = short.copy()
+    assert other["assembly"]["frf"] is whole and other["extra"]["pair"] == (1, {"x": 1})
+    other["assembly"]["frf"] = "other.uff"
+    other["extra"]["list"][0]["x"] = other["extra"]["pair"][1]["x"] = 2
+    other["extra"]["array"][:] = 2.0
+    other["joint"]["guess"].data["name"] = "other"
+    assert short["assembly"]["frf"] is whole and short["joint"]["guess"].name != "other"
+    assert short["extra"]["list"] == [{"x": 1}] and short["extra"]["pair"][1] == {"x": 1}
+    assert short["extra"]["array"].tolist() == [1.0, 1.0]
+    # as Python has it
+    shallow, deep = copy.copy(short), copy.deepcopy(short)
+    assert shallow["assembly"] is short["assembly"] and deep["assembly"] is not short["assembly"]
+    for one in (shallow, deep):
+        assert isinstance(one, bolted_joint.Study) and one.folder == short.folder
+
+
 @pytest.mark.parametrize("kind", ["paths", "functions", "both"])
 def test_functions_in_several_files_are_one_measurement(short, tmp_path, kind):
     whole = short["assembly"]["frf"]
@@ -104,6 +124,39 @@ def test_a_study_in_millimetres_is_measured_in_metres(short, tmp_path):
     lines = lines[lines < len(regenerated.frequency_hz)]
     ratio = np.abs(regenerated["13:+Y", "13:+Y"][lines]) / np.abs(of_file.measured()["13:+Y", "13:+Y"][: len(lines)])
     assert 0.5 < np.median(ratio) < 2.0
+
+
+def test_functions_are_regenerated_at_the_lines_of_the_measured_ones(short):
+    whole = short["assembly"]["frf"]
+    # lines that no step has, of which the study uses some
+    some = np.delete(np.arange(len(whole.frequency_hz)), [5, 6, 9])
+    uneven = Functions(whole.frequency_hz[some], whole.values[some], whole.responses, whole.references)
+    factor = (2j * np.pi * uneven.frequency_hz[:, None, None]) ** 2
+    short["assembly"] |= {"frf": with_values(uneven, uneven.values * factor, quantity="accelerance")}
+    short["assembly"] |= {"quantity": "accelerance", "averages": 4}
+    short["frequency"] = {"from": 20, "to": 400}
+    found = bolted_joint.identify(short)
+    measured = found.measured()
+    regenerated = found.regenerated(at=measured)
+    np.testing.assert_array_equal(regenerated.frequency_hz, measured.frequency_hz)
+    assert (regenerated.responses, regenerated.references) == (measured.responses, measured.references)
+    inside = (measured.frequency_hz >= 20) & (measured.frequency_hz <= 400)
+    left = np.abs(measured.values - regenerated.values)[inside]
+    assert np.median(left / np.abs(measured.values[inside])) < 0.1
+    # what is computed at a line does not depend on the others
+    of_steps = found.regenerated(5.0)
+    at_steps = found.regenerated(at=of_steps.frequency_hz[3:9].tolist())
+    np.testing.assert_allclose(at_steps.values, of_steps.values[3:9], rtol=1e-12)
+    for wrong, said in [
+        ([3.0], "at: found 1 lines from 3 Hz on, expected two lines or more above 0 Hz"),
+        ([0.0, 1.0], "at: found 2 lines from 0 Hz on, expected two"),
+        ([3.0, 1.0], "at: found 1 at line 1 after 3, expected frequencies that increase"),
+        ("a", "at: found what is no array of numbers"),
+    ]:
+        with pytest.raises(BoltedJointError, match=said):
+            found.regenerated(at=wrong)
+    with pytest.raises(BoltedJointError, match=r"at: found it beside step_hz \(2.0\), expected one of them"):
+        found.regenerated(2.0, at=measured)
 
 
 def test_accelerance_is_drawn_as_the_receptance_that_it_is(short):
@@ -148,6 +201,8 @@ def test_each_of_several_assemblies_is_measured_and_regenerated_at_its_torque(sh
         del alone["joint"]["torques"]
         expected = bolted_joint.respond(alone, found.joint.at_preload(torque), step_hz=5)
         np.testing.assert_array_equal(found.regenerated(5, assembly).values, expected.values)
+        at = found.regenerated(assembly=assembly, at=expected.frequency_hz)
+        np.testing.assert_array_equal(at.values, expected.values)
     labels = [line.get_label() for line in found.plot(assembly=1).axes[0].lines]
     assert "13:+Y/13:+Y measured, assembly 1" in labels and "13:+Y/13:+Y identified, assembly 1" in labels
     with pytest.raises(BoltedJointError, match="found 2, expected a number from 0 to 1"):
@@ -159,8 +214,9 @@ def test_of_a_lap_frequencies_are_drawn():
     found = bolted_joint.identify(ROOT / "examples/pirdayr-update/with-a-mass.toml")
     with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
         found.measured()
-    with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
-        found.regenerated()
+    for options in ({}, {"at": [1, 2]}):
+        with pytest.raises(BoltedJointError, match='"lap-update" without functions of an assembly'):
+            found.regenerated(**options)
     (axes,) = found.plot().axes
     curves = {line.get_label(): line for line in axes.lines}
     # 639 and 691 rad/s at 2 and 8 N·m, in Table 4
@@ -205,6 +261,9 @@ def test_of_a_joint_in_space_functions_are_regenerated(tmp_path):
     found = bolted_joint.identify(study)
     close(found.measured(), functions)
     regenerated = found.regenerated(20)
+    for lines in (slice(None), np.r_[0, 2, 5]):
+        at = found.regenerated(at=regenerated.frequency_hz[lines])
+        np.testing.assert_array_equal(at.values, regenerated.values[lines])
     scale = np.abs(functions.values).max()
     np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * scale)
     assert found.plot().axes[0].lines
@@ -244,4 +303,5 @@ def test_bolts_that_differ_have_a_joint_each():
     np.testing.assert_allclose(found.joints["right"].stiffness, joints["right"].stiffness, rtol=1e-3, atol=1.0)
     regenerated = found.regenerated(4)
     np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * np.abs(functions.values).max())
+    np.testing.assert_array_equal(found.regenerated(at=functions).values, regenerated.values)
     assert found.plot().axes[0].lines

@@ -110,7 +110,7 @@ def test_noise_is_that_of_the_command_line(run, demo, tmp_path):
     np.testing.assert_array_equal(functions["11:+Y", "11:+Y"], numbers[:, 1] + 1j * numbers[:, 2])
     with pytest.raises(BoltedJointError, match="joint: found int, expected a Joint, its file, or a dictionary"):
         bolted_joint.respond(demo / "study.toml", 5)
-    with pytest.raises(BoltedJointError, match="--joint: found nothing, expected the joint file"):
+    with pytest.raises(BoltedJointError, match="^joint: found nothing, expected the joint file"):
         bolted_joint.respond(demo / "study.toml")
 
 

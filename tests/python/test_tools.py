@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import pickle
 
 import numpy as np
 import pytest
@@ -39,6 +40,22 @@ def test_compare_gives_differences_in_deviations(demo):
     assert "<svg" in found.page_html and "k_yy" in found._repr_html_()
     with pytest.raises(bolted_joint.BoltedJointError, match="found 1, expected at least two"):
         bolted_joint.compare(joint)
+
+
+def test_pages_that_nobody_asked_for_say_how_to_ask(short, demo):
+    joint = demo / "m10x16.joint.json"
+    found = bolted_joint.identify(short)
+    for what, page, said in [
+        (found, "report_html", "identify and merge make it with report=True"),
+        (bolted_joint.predict(EXAMPLES / "predict-four-bolts/study.toml"), "report_html", "predict and merge make it with report=True"),
+        (bolted_joint.show(joint), "page_html", "show makes it with page=True"),
+        (bolted_joint.compare(joint, joint), "page_html", "compare makes it with page=True"),
+    ]:
+        with pytest.raises(bolted_joint.BoltedJointError, match=f"^{page}: found none.*{said}$"):
+            getattr(what, page)
+    assert "<svg" in bolted_joint.identify(short, report=True).report_html
+    # results go to other processes without a page
+    assert pickle.loads(pickle.dumps(found)).usable == found.usable
 
 
 def test_convert_writes_what_the_command_line_writes(run, demo, tmp_path):

@@ -4,12 +4,13 @@ import json
 import os
 import sys
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from . import _native
+from ._words import in_python
 
 _PLATFORMS = Path(__file__).with_name("platforms")
 
@@ -19,6 +20,9 @@ PYTHON = (sys.executable, ["-m", "bolted_joint"], str(_PLATFORMS) if _PLATFORMS.
 
 _NOT_USABLE = 3
 
+_Given = ParamSpec("_Given")
+_Found = TypeVar("_Found")
+
 
 class BoltedJointError(ValueError):
     """What was given cannot be used; the message says where, what was found and what was expected."""
@@ -26,6 +30,23 @@ class BoltedJointError(ValueError):
 
 class NotUsableWarning(UserWarning):
     """The work was done, but its result is not to be relied on; the message says why."""
+
+
+def native(function: Callable[_Given, _Found], *arguments: _Given.args, **named: _Given.kwargs) -> _Found:
+    """What a function of the compiled part gives.
+
+    Raises
+    ------
+    BoltedJointError
+        Where it has come upon a mistake of its own, which nothing that was given should lead to.
+    """
+    try:
+        return function(*arguments, **named)
+    except BaseException as error:
+        # a mistake in another thread is a RuntimeError; one in this thread an exception without a name to import
+        if not isinstance(error, RuntimeError) and type(error).__name__ != "PanicException":
+            raise
+        raise BoltedJointError(f"internal error: {error}; please report it, and what led to it") from error
 
 
 def path_of(path: object, argument: str = "path", expected: str = "a path") -> str:
@@ -82,17 +103,17 @@ def run(
     Raises
     ------
     BoltedJointError
-        With the command line's message.
+        With the command line's message, in this module's words.
     KeyboardInterrupt
         At Ctrl-C. Work that takes long then ends by itself.
     """
     command, *rest = arguments
     # before what stands at the end, which may be a command of its own
-    exit_code, printed, messages = _native.call([command, "--json", *rest], PYTHON)
+    exit_code, printed, messages = native(_native.call, [command, "--json", *rest], PYTHON)
     errors = []
     told: list[tuple[str, type[Warning]]] = []
     for message in messages:
-        message = in_words(message, shown)
+        message = in_words(in_python(message), shown)
         if message.startswith("warning: "):
             told.append((message.removeprefix("warning: "), UserWarning))
         else:

@@ -112,10 +112,27 @@ def draw(study: AnyStudy, numbers: range, *, bootstrap: int | None = None, seed:
         raise BoltedJointError(f"numbers: found {numbers!r}, expected a range such as range(0, 1000)")
     with as_file(study) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:
         output = Path(folder, "part.draws.json")
-        arguments = [command_of(path, shown), path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
+        command = command_of(path, shown)
+        _want_all_of(command, bootstrap)
+        arguments = [command, path, "-o", str(output), "--draws", f"{numbers.start}..{numbers.stop}"]
         arguments += repeated(bootstrap, seed)
         run(arguments, shown | {folder + os.sep: ""})
         return Draws.read(output)
+
+
+def _want_all_of(command: str, bootstrap: int | None) -> None:
+    """Refuses a study that has no draws, and what does not say how many draws there are, or says it twice."""
+    if command not in ("identify", "predict"):
+        raise BoltedJointError(f"study: found one for {command}, expected one for identify or predict, with draws")
+    if command == "identify" and bootstrap is None:
+        raise BoltedJointError(
+            "bootstrap: found nothing, expected how many draws all parts of the bootstrap have together"
+        )
+    if command == "predict" and bootstrap is not None:
+        raise BoltedJointError(
+            f"bootstrap: found {bootstrap!r}, expected nothing: the study of a prediction says how many draws there "
+            "are (uncertainty.draws)"
+        )
 
 
 def merge(
@@ -166,7 +183,7 @@ def merge(
             arguments += ["--report", str(page)]
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details: dict[str, Any] = run(arguments, shown)
-        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else None
         if command == "identify":
             return found_in(Path(folder), "merged", given, details, html)
         return Prediction(Joint.read(output), details, html)

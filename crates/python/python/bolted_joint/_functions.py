@@ -1,6 +1,7 @@
 """Frequency response functions as arrays."""
 
 import os
+import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -10,13 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 from ._archive import unit
 from ._command import BoltedJointError
 from ._html import table
-from ._values import listed, number
+from ._values import limit, listed, number, one_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Each is the one before it, differentiated by time.
-_QUANTITIES = ("receptance", "mobility", "accelerance")
+QUANTITIES = ("receptance", "mobility", "accelerance")
+
+#: What coherence may be below 0 or above 1 by rounding, as files have it.
+_ROUNDING = 1e-5
+
+#: A node, and a direction as all files have it: a scalar has no sign.
+_DOF = re.compile(r"\s*[0-9]{1,10}:([+-]?R?[XYZ]|0)\s*", re.IGNORECASE | re.ASCII)
 
 
 class Functions:
@@ -27,12 +34,12 @@ class Functions:
     Parameters
     ----------
     frequency_hz : array of shape (F,)
-        Frequencies, Hz, increasing.
+        Frequencies, Hz, from 0 on and increasing.
     values : complex array of shape (F, R, P)
         The functions: frequency, response, reference. An axis of length 1 may be missing. NaN on all lines: not
         measured. Masked entries become NaN.
     responses : sequence of R str
-        DOFs of the responses, such as ``"11:+Y"``.
+        DOFs of the responses, such as ``"11:+Y"``, each once.
     references : sequence of P str
         DOFs of the references, where the structure is loaded.
     quantity : {"receptance", "mobility", "accelerance"}
@@ -51,7 +58,8 @@ class Functions:
     Raises
     ------
     BoltedJointError
-        If the shapes do not fit, or averages are no number from 1 on.
+        If frequencies do not increase, DOFs are not such as ``"11:+Y"`` or stand there twice, values are not finite on
+        some lines of a function only, the shapes do not fit, or averages are no number from 1 on.
     """
 
     def __init__(
@@ -65,24 +73,35 @@ class Functions:
         coherence: ArrayLike | None = None,
         averages: float | None = None,
     ):
-        if np.ma.is_masked(frequency_hz):
-            raise BoltedJointError("frequency_hz: found masked entries, expected a number for each line")
-        self.frequency_hz: NDArray[np.float64] = _array("frequency_hz", frequency_hz, np.float64)
+        self.frequency_hz: NDArray[np.float64] = lines_of("frequency_hz", frequency_hz)
         self.responses: tuple[str, ...] = _names("responses", responses)
         self.references: tuple[str, ...] = _names("references", references)
         _known_quantity(quantity)
         self.quantity = quantity
-        if self.frequency_hz.ndim != 1:
-            raise BoltedJointError(
-                f"frequency_hz: found an array of shape {self.frequency_hz.shape}, expected one axis"
-            )
         shape = (len(self.frequency_hz), len(self.responses), len(self.references))
         self.values: NDArray[np.complex128] = _shaped("values", _unmasked("values", values, np.complex128), shape)
         self.coherence: NDArray[np.float64] | None = (
             None if coherence is None else _shaped("coherence", _unmasked("coherence", coherence, np.float64), shape)
         )
         self.averages: float | None = None if averages is None else number("averages", averages, 1.0)
+        self._want_numbers()
         self.magnitude_deviation: NDArray[np.float64] | None = None
+
+    def _want_numbers(self) -> None:
+        """Refuses values that no file may have, in words of the arrays: a file would be named that nobody knows of."""
+        wrong = ~np.isfinite(self.values) & (self.measured | np.isinf(self.values).any(axis=0))
+        for line, row, column in np.argwhere(wrong)[:1]:
+            raise BoltedJointError(
+                f"values: found {self.values[line, row, column]} at line {line} ({self.frequency_hz[line]:g} Hz) of "
+                f"{self.responses[row]}/{self.references[column]}, expected finite numbers, or NaN on all lines of a "
+                "function that was not measured; leave the line out of all arrays"
+            )
+        coherence = np.full((0, 0, 0), np.nan) if self.coherence is None else self.coherence
+        for line, row, column in np.argwhere((coherence < -_ROUNDING) | (coherence > 1.0 + _ROUNDING))[:1]:
+            raise BoltedJointError(
+                f"coherence: found {coherence[line, row, column]} at line {line} ({self.frequency_hz[line]:g} Hz) of "
+                f"{self.responses[row]}/{self.references[column]}, expected γ² from 0 to 1"
+            )
 
     def __len__(self) -> int:
         """How many functions there are."""
@@ -120,8 +139,8 @@ class Functions:
         self,
         responses: Sequence[str] | str | None = None,
         references: Sequence[str] | str | None = None,
-        from_hz: float = 0.0,
-        to_hz: float = np.inf,
+        from_hz: float | None = None,
+        to_hz: float | None = None,
     ) -> "Functions":
         """Some of the functions, on some of the lines.
 
@@ -129,12 +148,18 @@ class Functions:
         ----------
         responses, references : sequence of str, or str
             Their DOFs, or one DOF; all if they are left out.
-        from_hz, to_hz : float
-            First and last frequency, Hz.
+        from_hz, to_hz : float, optional
+            First and last frequency, Hz; no limit where one is left out or None.
+
+        Raises
+        ------
+        BoltedJointError
+            If there is no such DOF, or a limit is no number.
         """
         responses = self.responses if responses is None else listed("responses", responses)
         references = self.references if references is None else listed("references", references)
-        lines = (self.frequency_hz >= from_hz) & (self.frequency_hz <= to_hz)
+        first, last = limit("from_hz", from_hz, -np.inf), limit("to_hz", to_hz, np.inf)
+        lines = (self.frequency_hz >= first) & (self.frequency_hz <= last)
         rows = np.array([_index(self.responses, name) for name in responses], dtype=np.intp)
         columns = np.array([_index(self.references, name) for name in references], dtype=np.intp)
         part = np.ix_(np.flatnonzero(lines), rows, columns)
@@ -160,7 +185,7 @@ class Functions:
             What is asked for. A line at 0 Hz is left out where that divides by the frequency.
         """
         _known_quantity(quantity)
-        power = _QUANTITIES.index(quantity) - _QUANTITIES.index(self.quantity)
+        power = QUANTITIES.index(quantity) - QUANTITIES.index(self.quantity)
         if power == 0:
             return self
         lines = self.frequency_hz > 0.0 if power < 0 else np.full(self.frequency_hz.shape, True)
@@ -198,14 +223,17 @@ class Functions:
         Raises
         ------
         BoltedJointError
-            If the path ends otherwise, or if some function between the responses and the references was not measured,
-            for which an archive has no word.
+            If the path ends otherwise, if there is no function, or if some function between the responses and the
+            references was not measured, for which an archive has no word.
         """
         ending = os.path.splitext(path)[1].lower()
         if ending not in (".npz", ".csv"):
             raise BoltedJointError(
                 f"{os.fspath(path)}: found the ending {ending!r}, expected .npz (NumPy archive) or .csv (table)"
             )
+        if not self.measured.any():
+            found = f"{len(self.frequency_hz)} lines, none of a function that was measured"
+            raise BoltedJointError(f"functions: found {found}, expected one function on one line at least")
         if ending == ".csv":
             self._save_table(path)
             return
@@ -295,14 +323,55 @@ class Functions:
 
 
 def _known_quantity(quantity: str) -> None:
-    if quantity not in _QUANTITIES:
-        raise BoltedJointError(f"quantity: found {quantity!r}, expected one of {', '.join(_QUANTITIES)}")
+    one_of("quantity", quantity, QUANTITIES)
 
 
 def _names(argument: str, names: Sequence[str]) -> tuple[str, ...]:
     if isinstance(names, str):
         raise BoltedJointError(f'{argument}: found the text {names!r}, expected a list of DOFs such as ["11:+Y"]')
-    return tuple(names)
+    try:
+        # those of NumPy become Python's
+        found = tuple(str(name) if isinstance(name, str) else name for name in names)
+    except TypeError:
+        raise BoltedJointError(f'{argument}: found {names!r}, expected a list of DOFs such as ["11:+Y"]') from None
+    known = set()
+    for name in found:
+        if not isinstance(name, str) or not _DOF.fullmatch(name):
+            raise BoltedJointError(
+                f'{argument}: found {name!r}, expected NODE:DIRECTION such as "11:+Y": a number, and X, Y, Z, RX, RY '
+                "or RZ with its sign"
+            )
+        node, direction = name.strip().upper().split(":")
+        dof = (int(node), direction.removeprefix("+"))
+        if dof in known:
+            raise BoltedJointError(f"{argument}: found {name!r} twice, expected each DOF once")
+        known.add(dof)
+    return found
+
+
+def lines_of(argument: str, frequency_hz: ArrayLike) -> NDArray[np.float64]:
+    """Frequencies of lines in an array of their own, Hz.
+
+    Raises
+    ------
+    BoltedJointError
+        With the argument's name, where they are no finite numbers from 0 on that increase.
+    """
+    if np.ma.is_masked(frequency_hz):
+        raise BoltedJointError(f"{argument}: found masked entries, expected a number for each line")
+    found = _array(argument, frequency_hz, np.float64)
+    if found.ndim != 1:
+        raise BoltedJointError(f"{argument}: found an array of shape {found.shape}, expected one axis")
+    for line in np.flatnonzero(~(np.isfinite(found) & (found >= 0.0)))[:1]:
+        raise BoltedJointError(
+            f"{argument}: found {found[line]} at line {line}, expected finite frequencies in Hz from 0 on"
+        )
+    for line in np.flatnonzero(np.diff(found) <= 0.0)[:1] + 1:
+        raise BoltedJointError(
+            f"{argument}: found {found[line]:.17g} at line {line} after {found[line - 1]:.17g}, expected frequencies "
+            "that increase; sort the lines of all arrays, such as by numpy.unique(frequency_hz, return_index=True)[1]"
+        )
+    return found
 
 
 def _index(names: tuple[str, ...], name: str) -> int:

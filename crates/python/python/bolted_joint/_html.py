@@ -3,6 +3,21 @@
 from collections.abc import Iterable, Sequence
 from html import escape
 
+from ._command import BoltedJointError
+
+
+def asked(page: str | None, what: str, argument: str, by: str) -> str:
+    """A page that was made where it was asked for.
+
+    Raises
+    ------
+    BoltedJointError
+        Where it was not: with the argument that asks for it.
+    """
+    if page is None:
+        raise BoltedJointError(f"{what}: found none, since none was asked for; {by} it with {argument}=True")
+    return page
+
 
 def table(caption: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """An HTML table; what it shows is text and is escaped."""

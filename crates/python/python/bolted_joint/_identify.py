@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._command import BoltedJointError, NotUsableWarning, in_page, run
-from ._functions import Functions
+from ._functions import Functions, lines_of
+from ._html import asked
 from ._joint import Joint
-from ._measured import assemblies, functions_of, with_joints
+from ._measured import assemblies, functions_of, with_joints, with_lines
 from ._respond import answered, of_step
 from ._study import AnyStudy, Study, as_file, settled, tables_of
 from ._values import whole
@@ -33,15 +35,13 @@ class Identification:
         Why not.
     details : dict
         All that ``bolted-joint identify --json`` prints: models compared, budget, lines used.
-    report_html : str
-        The report: one page with everything that was measured, assumed and found. Empty where none was asked for.
     """
 
-    def __init__(self, study: Study, joints: dict[str, Joint], details: dict[str, Any], report_html: str):
+    def __init__(self, study: Study, joints: dict[str, Joint], details: dict[str, Any], report_html: str | None):
         self._study = study
         self.joints = joints
         self.details = details
-        self.report_html = report_html
+        self._report_html = report_html
         first = next(iter(joints.values()))
         self.usable = bool(details.get("usable", first.usable))
         self.reasons_against: tuple[str, ...] = tuple(details.get("reasons_against", first.reasons_against))
@@ -59,6 +59,17 @@ class Identification:
             raise ValueError(f"found joints of {', '.join(self.joints)}; take one of them from joints")
         return next(iter(self.joints.values()))
 
+    @property
+    def report_html(self) -> str:
+        """The report: one page with everything that was measured, assumed and found.
+
+        Raises
+        ------
+        BoltedJointError
+            If none was asked for: ``identify(..., report=True)``.
+        """
+        return asked(self._report_html, "report_html", "report", "identify and merge make")
+
     def measured(self, assembly: int = 0) -> Functions:
         """The functions of the assembly that were measured, as receptances in SI units.
 
@@ -74,8 +85,12 @@ class Identification:
         """
         return functions_of(self._study, assembly)
 
-    def regenerated(self, step_hz: float | None = None, assembly: int = 0) -> Functions:
+    def regenerated(
+        self, step_hz: float | None = None, assembly: int = 0, *, at: Functions | ArrayLike | None = None
+    ) -> Functions:
         """The functions that the assembly would have with what was identified, as receptances.
+
+        ``regenerated(at=found.measured())`` has the lines of what was measured: values that may be subtracted.
 
         Parameters
         ----------
@@ -83,12 +98,18 @@ class Identification:
             Distance between the lines, Hz; 0.25, or in space that of the measured ones, if it is left out.
         assembly : int
             Which of the study's assemblies, from 0 on. A joint over the preload is taken at its torque.
+        at : Functions or array of shape (F,), optional
+            In place of `step_hz` the lines, Hz, above 0 and increasing: those of functions, or frequencies themselves.
+            Nothing is interpolated. What a study says of lines to use does not count for them. A structure whose
+            functions were measured has to have these lines.
 
         Raises
         ------
         BoltedJointError
-            If no functions were measured, as for laps.
+            If no functions were measured, as for laps, or if something has no such lines.
         """
+        if at is not None:
+            return self._at(at, step_hz, assembly)
         study = with_joints(self._study, self.joints, assembly)
         joints = None if study["method"] == "frf-space" else self.joints
         has_lines = joints is not None or any("frf" in part for part in study.values() if isinstance(part, Mapping))
@@ -97,6 +118,23 @@ class Identification:
             step_hz = float(np.median(np.diff(self.measured().frequency_hz)))
         # that the result is not to be relied on `identify` has told
         response = answered(study, joints, of_step(step_hz), quiet=NotUsableWarning)
+        assert isinstance(response, Functions)
+        return response
+
+    def _at(self, at: Functions | ArrayLike, step_hz: float | None, assembly: int) -> Functions:
+        """The functions that the assembly would have, at these lines."""
+        if step_hz is not None:
+            raise BoltedJointError(f"at: found it beside step_hz ({step_hz!r}), expected one of them")
+        frequency_hz = at.frequency_hz if isinstance(at, Functions) else lines_of("at", at)
+        if isinstance(at, Functions):
+            # static receptances are measured of nothing
+            frequency_hz = frequency_hz[frequency_hz > 0.0]
+        if len(frequency_hz) < 2 or frequency_hz[0] <= 0.0:
+            found = f"{len(frequency_hz)} lines" + (f" from {frequency_hz[0]:g} Hz on" if len(frequency_hz) else "")
+            raise BoltedJointError(f"at: found {found}, expected two lines or more above 0 Hz")
+        study = with_lines(self._study, self.joints, assembly, frequency_hz)
+        joints = None if study["method"] == "frf-space" else self.joints
+        response = answered(study, joints, [], quiet=NotUsableWarning)
         assert isinstance(response, Functions)
         return response
 
@@ -187,7 +225,7 @@ def identify(
             arguments += ["--report", str(page)]
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details = run(arguments, shown)
-        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else None
         return found_in(Path(folder), "identified", given, details, html)
 
 
@@ -207,7 +245,7 @@ def repeated(bootstrap: int | None, seed: int | None) -> list[str]:
     return options if seed is None else [*options, "--seed", str(whole("seed", seed, 0))]
 
 
-def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str) -> Identification:
+def found_in(folder: Path, stem: str, study: AnyStudy, details: dict[str, Any], html: str | None) -> Identification:
     """The joint files that a command has written into a folder, as `stem`.joint.json or `stem`.BOLT.joint.json."""
     joints = {
         file.name.removeprefix(stem).removesuffix("joint.json").strip("."): Joint.read(file)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._command import BoltedJointError, path_of, run
 from ._html import table, with_deviation
-from ._values import checked, number, plain, within
+from ._values import checked, number, plain, whole, within
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -70,7 +70,9 @@ class Joint:
         try:
             data = json.loads(Path(path).read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
-            raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
+            # the command line knows files of other kinds, and raises an error that says which this one is
+            run(["compare", path_of(path), path_of(path)], quiet=Warning)
+            raise BoltedJointError(f"{os.fspath(path)}: {error}, expected a joint file (JSON)") from error
         if not isinstance(data, dict) or "joint" not in data:
             raise BoltedJointError(f"{os.fspath(path)}: found no key joint, expected a joint file (JSON)")
         try:
@@ -224,19 +226,21 @@ class Joint:
             )
         return self.stiffness + 1j * omega[..., None, None] * self.damping
 
-    def draw(self, rng: np.random.Generator) -> "Joint":
+    def draw(self, rng: np.random.Generator | int) -> "Joint":
         """A joint drawn from the normal distribution of its unknowns, those at all preloads at once.
 
         Parameters
         ----------
-        rng : numpy.random.Generator
-            Where the random numbers come from.
+        rng : numpy.random.Generator or int
+            Where the random numbers come from. A whole number is the seed of a generator of its own: the same one draws
+            the same joint.
 
         Raises
         ------
         BoltedJointError
-            If the file has no covariance, or one of zeros, as that of a joint with friction alone.
+            If `rng` is neither, or the file has no covariance, or one of zeros, as that of a joint with friction alone.
         """
+        generator = _generator(rng)
         covariance = self.covariance
         places = self._places()
         if covariance is None or not covariance.any():
@@ -257,7 +261,7 @@ class Joint:
             raise BoltedJointError(
                 f"{self.name}: found no covariance of the entries of K and C{at}, expected one to draw from"
             )
-        change = rng.multivariate_normal(np.zeros(len(covariance)), covariance, method="eigh")
+        change = generator.multivariate_normal(np.zeros(len(covariance)), covariance, method="eigh")
         data = copy.deepcopy(self.data)
         for size, (matrix, entry, row, column) in zip(change, places, strict=True):
             joint = data["joint"]
@@ -460,6 +464,18 @@ def _missing(data: Mapping[str, Any]) -> str | None:
                 place = within(place, key)
             return place
     return None
+
+
+def _generator(rng: Any) -> np.random.Generator:
+    """The generator, or one whose seed is the whole number."""
+    if isinstance(rng, np.random.Generator):
+        return rng
+    if isinstance(rng, int | np.integer):
+        return np.random.default_rng(whole("rng", rng, 0))
+    raise BoltedJointError(
+        f"rng: found an object of type {type(rng).__name__}, expected a numpy.random.Generator, such as "
+        "numpy.random.default_rng(1), or a whole number as its seed"
+    )
 
 
 def _short(value: Any) -> str:

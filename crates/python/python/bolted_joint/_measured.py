@@ -4,11 +4,18 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ._command import BoltedJointError
 from ._functions import Functions
 from ._joint import Joint
 from ._read import together
 from ._study import AnyStudy, Study, tables_of
+from ._values import place_of
+
+#: What a table of an assembly says of its functions.
+_OF_FUNCTIONS = ("frf", "quantity", "units", "averages", "coherence", "repeats")
 
 
 def functions_of(study: AnyStudy, assembly: int) -> Functions:
@@ -40,6 +47,24 @@ def with_joints(study: AnyStudy, joints: Mapping[str, Joint], assembly: int) -> 
     return tables
 
 
+def with_lines(
+    study: AnyStudy, joints: Mapping[str, Joint], assembly: int, frequency_hz: NDArray[np.float64]
+) -> Study:
+    """As `with_joints`, with functions at these lines, which the assembly is then computed at."""
+    tables = with_joints(study, joints, assembly)
+    # what states no lines takes those of the functions
+    tables.pop("frequency", None)
+    measured = functions_of(study, assembly)
+    # of an assembly that is computed only the lines are read, not the values
+    shape = (len(frequency_hz), len(measured.responses), len(measured.references))
+    functions = Functions(frequency_hz, np.ones(shape), measured.responses, measured.references)
+    table = assemblies(tables_of(study))[assembly]
+    kept = {key: value for key, value in table.items() if key not in _OF_FUNCTIONS}
+    with_functions = {**kept, "frf": functions}
+    tables["assembly"] = with_functions if tables.get("method") == "frf-space" else [with_functions]
+    return tables
+
+
 def assemblies(tables: Study) -> list[Mapping[str, Any]]:
     """The assemblies of which functions were measured.
 
@@ -67,10 +92,7 @@ def _known(joint: Any, joints: Mapping[str, Joint]) -> list[dict[str, Any]]:
 
 
 def _place(tables: Study, assembly: int) -> int:
-    count = len(assemblies(tables))
-    if not 0 <= assembly < count:
-        raise BoltedJointError(f"assembly: found {assembly}, expected a number from 0 to {count - 1}")
-    return assembly
+    return place_of("assembly", assembly, len(assemblies(tables)))
 
 
 def _listed(value: Any) -> list[Any]:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._command import in_page, run
+from ._html import asked
 from ._joint import Joint
 from ._loops import loops_of
 from ._study import AnyStudy, as_file
@@ -23,14 +24,23 @@ class Prediction:
         The joint.
     details : dict
         All that ``bolted-joint predict --json`` prints.
-    report_html : str
-        The report. Empty where none was asked for.
     """
 
-    def __init__(self, joint: Joint, details: dict[str, Any], report_html: str):
+    def __init__(self, joint: Joint, details: dict[str, Any], report_html: str | None):
         self.joint = joint
         self.details = details
-        self.report_html = report_html
+        self._report_html = report_html
+
+    @property
+    def report_html(self) -> str:
+        """The report: one page.
+
+        Raises
+        ------
+        BoltedJointError
+            If none was asked for: ``predict(..., report=True)``.
+        """
+        return asked(self._report_html, "report_html", "report", "predict and merge make")
 
     def plot(self) -> "Figure":
         """Draws what was predicted; `Joint.plot` of `joint` has options.
@@ -83,5 +93,5 @@ def predict(study: AnyStudy, *, report: bool = False) -> Prediction:
             arguments += ["--report", str(page)]
         shown |= {str(output): "the joint", folder + os.sep: ""}
         details = run(arguments, shown)
-        html = in_page(page.read_text(encoding="utf-8"), shown) if report else ""
+        html = in_page(page.read_text(encoding="utf-8"), shown) if report else None
         return Prediction(Joint.read(output), details, html)

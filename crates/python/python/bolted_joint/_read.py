@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _archive, _matlab73, _native
-from ._command import BoltedJointError, path_of, run
-from ._functions import Functions
-from ._values import number
+from ._command import BoltedJointError, native, path_of, run
+from ._functions import QUANTITIES, Functions
+from ._values import number, one_of
 
 #: SI units in one unit, by the names that studies and files have for them.
 _LENGTHS = {
@@ -91,6 +91,7 @@ def together(
 ) -> Functions:
     """As `read`, of files and of functions that are arrays already; of units that are not stated it may be quiet."""
     factors = None if units is None else unit_factors(units)
+    quantity = None if quantity is None else one_of("quantity", quantity, QUANTITIES)
     averages = None if averages is None else number("averages", averages, 1.0)
     curves: list[_Curve] = []
     coherences: list[_Curve] = []
@@ -140,7 +141,9 @@ def _curves(
     """Functions of one file; by `units` where they are given, else by those that the file states."""
     with _matlab73.archive(path) if _matlab73.is_one(path) else contextlib.nullcontext(path) as source:
         try:
-            read, read_coherences, stated, has_units = _native.read_functions(source, quantity, averages)
+            read, read_coherences, stated, has_units = native(
+                _native.read_functions, source, quantity, averages
+            )
         except ValueError as error:
             raise BoltedJointError(str(error).replace(os.fspath(source), os.fspath(path))) from error
         of_file = (1.0, 1.0)
@@ -238,13 +241,16 @@ def _of_curves(
 
 def unit_factors(units: Mapping[str, str]) -> tuple[float, float]:
     """SI units in the length and in the force that a study names."""
+    if not isinstance(units, Mapping):
+        expected = 'a dictionary such as {"length": "mm", "force": "N"}'
+        raise BoltedJointError(f"units: found {units!r}, expected {expected}")
     found = []
     for key, known, names in [
         ("length", _LENGTHS, "m, cm, mm, um, in, ft, mil"),
         ("force", _FORCES, "N, kN, mN, lbf, kgf"),
     ]:
         name = units.get(key)
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             raise BoltedJointError(f"units.{key}: found {name!r}, expected one of {names}")
         found.append(known[name])
     length, force = found
@@ -269,6 +275,11 @@ def _unsigned(response: str, reference: str) -> tuple[str, str]:
 def _paths(
     argument: str, paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 ) -> list[str | os.PathLike[str]]:
+    # an open file is iterable: its lines would be taken for paths
+    if hasattr(paths, "read"):
+        raise BoltedJointError(
+            f"{argument}: found an open file ({getattr(paths, 'name', type(paths).__name__)}), expected its path"
+        )
     found = list(paths) if isinstance(paths, Iterable) and not isinstance(paths, str | os.PathLike) else [paths]
     for path in found:
         path_of(path, argument, "a path or a list of paths")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ._command import BoltedJointError, in_page, path_of, run
 from ._functions import Functions
-from ._html import table
+from ._html import asked, table
 from ._joint import AJoint, Joint, joint_of
 from ._study import Study, as_file
 from ._values import number, one_of, whole
@@ -40,18 +40,27 @@ class Look:
         What looks wrong, and why a joint is not to be relied on.
     details : dict
         The same as numbers.
-    page_html : str
-        The page with its pictures. Empty where none was asked for.
     """
 
-    def __init__(self, data: dict[str, Any], page_html: str):
+    def __init__(self, data: dict[str, Any], page_html: str | None):
         self.file = str(data["file"])
         self.kind = str(data["kind"])
         self.facts: dict[str, list[str]] = data["facts"]
         self.warnings: tuple[str, ...] = tuple(data["warnings"])
         self.reasons_against: tuple[str, ...] = tuple(data["reasons_against"])
         self.details: dict[str, Any] = data["details"]
-        self.page_html = page_html
+        self._page_html = page_html
+
+    @property
+    def page_html(self) -> str:
+        """The page with its pictures.
+
+        Raises
+        ------
+        BoltedJointError
+            If none was asked for: ``show(..., page=True)``.
+        """
+        return asked(self._page_html, "page_html", "page", "show makes")
 
     def __repr__(self) -> str:
         lines = [f"{self.file}: {self.kind}"]
@@ -103,7 +112,7 @@ def show(what: Shown, *, page: bool = False) -> Look:
         drawing = Path(folder, "page.html")
         arguments = ["show", path, *(["--plot", str(drawing)] if page else [])]
         data = run(arguments, shown)[0]
-        return Look(data, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
+        return Look(data, in_page(drawing.read_text(encoding="utf-8"), shown) if page else None)
 
 
 class Comparison:
@@ -125,11 +134,9 @@ class Comparison:
         What else differs.
     details : dict
         All that ``bolted-joint compare --json`` prints.
-    page_html : str
-        The page with its picture. Empty where none was asked for.
     """
 
-    def __init__(self, names: Sequence[str], details: dict[str, Any], page_html: str):
+    def __init__(self, names: Sequence[str], details: dict[str, Any], page_html: str | None):
         rows = details["rows"]
         self.names = tuple(names)
         self.rows: tuple[str, ...] = tuple(row["name"] for row in rows)
@@ -139,7 +146,18 @@ class Comparison:
         self.together: list[dict[str, Any] | None] = details["together"]
         self.notes: tuple[str, ...] = tuple(details["notes"])
         self.details = details
-        self.page_html = page_html
+        self._page_html = page_html
+
+    @property
+    def page_html(self) -> str:
+        """The page with its picture.
+
+        Raises
+        ------
+        BoltedJointError
+            If none was asked for: ``compare(..., page=True)``.
+        """
+        return asked(self._page_html, "page_html", "page", "compare makes")
 
     def plot(self) -> "Figure":
         """Draws the numbers with their intervals of 95 %.
@@ -215,7 +233,7 @@ def compare(
         shown = {path: name for path, name, joint in zip(paths, names, given, strict=True) if isinstance(joint, Joint)}
         shown[folder + os.sep] = ""
         details = run(arguments, shown)
-        return Comparison(names, details, in_page(drawing.read_text(encoding="utf-8"), shown) if page else "")
+        return Comparison(names, details, in_page(drawing.read_text(encoding="utf-8"), shown) if page else None)
 
 
 def convert(

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._command import BoltedJointError, in_words, path_of
+from ._command import BoltedJointError, in_words, native, path_of
 from ._functions import Functions
 from ._joint import Joint
 from ._read import unit_factors
@@ -52,8 +52,12 @@ class Study(dict[str, Any]):
         self.folder = Path(folder).resolve()
 
     def copy(self) -> "Study":
-        """The same tables in a study of its own, with the same folder; tables within tables are shared."""
-        return Study(self)
+        """The same study once more, in the same folder: what is changed in one is not in the other.
+
+        Tables within tables, lists, arrays and joints are copied; `Functions`, which are not changed once they are
+        made, are shared. A copy that shares its tables, as that of a dictionary does, is ``copy.copy(study)``.
+        """
+        return Study(_copied(self), self.folder)
 
     def __or__(self, other: Any) -> Any:
         """These tables with those of `other` in their place, in the folder of this study."""
@@ -83,7 +87,7 @@ class Study(dict[str, Any]):
     def parse(cls, text: str, folder: str | os.PathLike[str] = ".") -> "Study":
         """A study from its text (TOML)."""
         try:
-            return cls(json.loads(_native.to_json(text)), folder)
+            return cls(json.loads(native(_native.to_json, text)), folder)
         except ValueError as error:
             raise BoltedJointError(str(error)) from error
 
@@ -100,16 +104,17 @@ def tables_of(study: AnyStudy) -> Study:
 
 def settled(study: Mapping[str, Any]) -> Study:
     """A study as it is now: whatever is done to the one that was given, or to the current folder, it stays the same."""
-    tables = tables_of(study)
-    return Study(_copied(tables), tables.folder)
+    return tables_of(study).copy()
 
 
 def _copied(value: Any) -> Any:
     """A value with dictionaries, lists, arrays and joints of its own; functions are not changed once they are made."""
     if isinstance(value, Mapping):
         return {name: _copied(inner) for name, inner in value.items()}
-    if isinstance(value, list | tuple):
+    if isinstance(value, list):
         return [_copied(inner) for inner in value]
+    if isinstance(value, tuple):
+        return tuple(_copied(inner) for inner in value)
     if isinstance(value, np.ndarray):
         return value.copy()
     return Joint(copy.deepcopy(value.data)) if isinstance(value, Joint) else value
@@ -132,7 +137,7 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
         has_units = study.get("method") != "frf-space"
         tables = _Tables(folder, Path(temporary), has_units).written(study, "study", "study")
         try:
-            text = _native.to_toml(json.dumps(tables, allow_nan=False))
+            text = native(_native.to_toml, json.dumps(tables, allow_nan=False))
         except ValueError as error:
             raise BoltedJointError(str(error)) from error
         path = Path(temporary, "study.toml")
@@ -143,7 +148,7 @@ def as_file(study: AnyStudy) -> Iterator[tuple[str, dict[str, str]]]:
 def command_of(path: str, shown: Mapping[str, str]) -> str:
     """The command that a study's file is for."""
     try:
-        return _native.command_of(path)
+        return native(_native.command_of, path)
     except ValueError as error:
         raise BoltedJointError(in_words(str(error), shown)) from error
 

@@ -93,16 +93,48 @@ def number(argument: str, value: Any, least: float = -math.inf) -> float:
     return found
 
 
+def limit(argument: str, value: Any, none: float) -> float:
+    """An argument that is an end of a range, which may be infinite; `none` where it is None. Errors as of `whole`."""
+    if value is None:
+        return none
+    try:
+        if isinstance(value, str | bytes | bool):
+            raise TypeError
+        found = float(value)
+    except (TypeError, ValueError):
+        found = math.nan
+    if math.isnan(found):
+        raise BoltedJointError(f"{argument}: found {value!r}, expected a number, or None for no limit")
+    return found
+
+
+def place_of(argument: str, value: Any, count: int) -> int:
+    """An argument that is a number from 0 to `count` - 1; errors as of `whole`."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        found = operator.index(value)
+    except TypeError:
+        found = -1
+    if not 0 <= found < count:
+        raise BoltedJointError(f"{argument}: found {value!r}, expected a number from 0 to {count - 1}")
+    return found
+
+
 def one_of(argument: str, value: Any, known: Sequence[Any]) -> Any:
     """An argument that is one of some words or numbers; errors as of `whole`."""
-    if value not in known:
+    # an array has no one truth
+    if isinstance(value, np.ndarray) or value not in known:
         raise BoltedJointError(f"{argument}: found {value!r}, expected one of {', '.join(map(str, known))}")
     return value
 
 
 def listed(argument: str, value: Any) -> tuple[str, ...]:
     """An argument that is a list of texts; a text alone is one of them."""
-    found = (value,) if isinstance(value, str) else tuple(value)
+    try:
+        found = (value,) if isinstance(value, str) else tuple(value)
+    except TypeError:
+        raise BoltedJointError(f"{argument}: found {value!r}, expected a text or a list of texts") from None
     for one in found:
         if not isinstance(one, str):
             raise BoltedJointError(f"{argument}: found {one!r}, expected texts")

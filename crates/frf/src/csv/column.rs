@@ -74,6 +74,17 @@ pub(super) enum Form {
     None,
 }
 
+impl Form {
+    /// Where phases in radian stand.
+    pub(super) fn radians_at(self) -> Option<usize> {
+        match self {
+            // the other unit, a degree, is less than a radian
+            Self::Polar { phase, radians, .. } if radians >= 1.0 => Some(phase),
+            _ => None,
+        }
+    }
+}
+
 /// One function of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Columns {

@@ -10,6 +10,7 @@ use num_complex::Complex64;
 
 use super::column::{Columns, Form};
 use super::header::{Header, Keys, Names};
+use super::phase::Phases;
 use super::row::Row;
 use crate::gathered::Gathered;
 use crate::read::opened;
@@ -123,6 +124,7 @@ pub fn read_csv_from(
             columns,
             stated,
             lines: Gathered::default(),
+            phases: Phases::default(),
             coherence: Gathered::default(),
         });
     }
@@ -141,9 +143,18 @@ pub fn read_csv_from(
         columns,
         stated,
         lines,
+        phases,
         coherence,
     } in wanted
     {
+        let place = columns.form.radians_at();
+        if let Some((line, problem)) = place.and_then(|place| phases.degrees(place + 1)) {
+            return Err(FrfError::Csv {
+                path: path.to_owned(),
+                line,
+                problem: Box::new(problem),
+            });
+        }
         let pair = (columns.response, columns.reference);
         if let Some(stated) = stated {
             functions.push(
@@ -182,6 +193,8 @@ struct Wanted<'header> {
     /// Nothing for a coherence alone.
     stated: Option<Stated>,
     lines: Gathered,
+    /// Phases in radian.
+    phases: Phases,
     coherence: Gathered,
 }
 
@@ -328,6 +341,10 @@ impl<R: BufRead> Rows<'_, R> {
                         format_args!("value {value} at {hz} Hz"),
                         "a finite number; remove the line from the measurement",
                     )));
+                }
+                if let Some(place) = function.columns.form.radians_at() {
+                    let phase = row.real(place).map_err(|problem| self.problem(problem))?;
+                    function.phases.push(phase, self.number);
                 }
                 function.lines.push(&options.selection, hz, value);
                 if let Some(column) = function.columns.coherence {

@@ -7,16 +7,6 @@ use super::decibel::Decibel;
 use super::header::Keys;
 use crate::{Dof, Quantity, TableProblem};
 
-/// A quantity by its name.
-pub(super) fn quantity(word: &str) -> Option<Quantity> {
-    match word.to_lowercase().as_str() {
-        "receptance" => Some(Quantity::Receptance),
-        "mobility" => Some(Quantity::Mobility),
-        "accelerance" => Some(Quantity::Accelerance),
-        _ => None,
-    }
-}
-
 /// What a column holds of its function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
@@ -144,7 +134,7 @@ impl Column {
         let (response, reference) = (dof(response)?, dof(reference)?);
         let (mut part, mut stated) = (None, None);
         for word in words {
-            match (Part::from_word(word), quantity(word)) {
+            match (Part::from_word(word), Quantity::named(word)) {
                 (Some(found), _) if part.is_none() => part = Some(found),
                 (None, Some(found)) if stated.is_none() => stated = Some(found),
                 _ => return Err(no_name()),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::column::{Column, Columns, Part, quantity, split_unit};
+use super::column::{Column, Columns, Part, split_unit};
 use crate::{Dof, Quantity, TableProblem};
 use bolted_joint_files::Decimal;
 use bolted_joint_files::text_table::{Cells, separator};
@@ -30,7 +30,8 @@ impl Keys {
         match key.trim().to_lowercase().as_str() {
             "quantity" => {
                 let expected = "receptance, mobility or accelerance";
-                self.quantity = Some(quantity(value).ok_or_else(|| refused("quantity", expected))?);
+                self.quantity =
+                    Some(Quantity::named(value).ok_or_else(|| refused("quantity", expected))?);
             }
             "unit" => self.unit = Some(value.to_owned()),
             "averages" => {

@@ -63,6 +63,8 @@ struct Candidate {
     references: BTreeSet<Dof>,
     /// Lowest and highest frequency, Hz.
     band_hz: [f64; 2],
+    /// What is to be known of its functions.
+    warning: Option<String>,
 }
 
 impl Candidate {
@@ -171,6 +173,11 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
             names.collect::<Vec<_>>().join(", ")
         ));
     }
+    let used = found.iter().chain([&assembly]);
+    notes.extend(
+        used.filter_map(|own| own.warning.as_ref())
+            .map(|own| format!("warning: {own}")),
+    );
     if !refused.is_empty() {
         notes.push(format!("not read: {}", refused.trim_start_matches("; ")));
     }
@@ -226,19 +233,25 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
     let name = path.file_name()?.to_str()?.to_owned();
     match FileKind::of(path) {
         FileKind::Functions(_) => {
-            let set =
-                read_frfs(path, &ReadOptions::default()).and_then(|reading| reading.into_set());
-            Some(set.map_err(|refused| refused.to_string()).map(|set| {
-                let hz = set.frequency_hz();
-                Candidate {
-                    name,
-                    further: Vec::new(),
-                    is_modal: false,
-                    responses: set.functions().map(|own| own.0).collect(),
-                    references: set.functions().map(|own| own.1).collect(),
-                    band_hz: [hz[0], hz[hz.len() - 1]],
-                }
-            }))
+            let read = read_frfs(path, &ReadOptions::default()).and_then(|reading| {
+                let warning = reading.phase_warning();
+                reading.into_set().map(|set| (set, warning))
+            });
+            Some(
+                read.map_err(|refused| refused.to_string())
+                    .map(|(set, warning)| {
+                        let hz = set.frequency_hz();
+                        Candidate {
+                            name,
+                            further: Vec::new(),
+                            is_modal: false,
+                            responses: set.functions().map(|own| own.0).collect(),
+                            references: set.functions().map(|own| own.1).collect(),
+                            band_hz: [hz[0], hz[hz.len() - 1]],
+                            warning,
+                        }
+                    }),
+            )
         }
         FileKind::Modes => Some(
             ModalModel::read(path)
@@ -257,6 +270,7 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
                         responses: points.clone(),
                         references: points,
                         band_hz: [0.0, last],
+                        warning: None,
                     }
                 }),
         ),

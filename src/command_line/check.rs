@@ -221,10 +221,13 @@ fn assembly_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliE
             names(&mut model.structures.iter().map(|own| &own.name)),
             model.size()
         ),
-        format!(
-            "joints: {}",
-            names(&mut model.joints.iter().map(|own| &own.name))
-        ),
+        match model.joints.is_empty() {
+            true => "joints: none".to_owned(),
+            false => format!(
+                "joints: {}",
+                names(&mut model.joints.iter().map(|own| &own.name))
+            ),
+        },
     ];
     facts.extend(model.notes.iter().cloned());
     let (mut findings, mut reasons_against) = (Vec::new(), Vec::new());
@@ -243,14 +246,20 @@ fn assembly_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliE
         );
     }
     facts.push("as one FMU: exact for the linear part at any communication step".to_owned());
-    let step = of_assembly(&model)?;
-    facts.extend(
-        step.facts
-            .into_iter()
-            .map(|fact| format!("as structures and elements (SSP): {fact}")),
-    );
     let mut details = Map::new();
-    details.insert("communication_step".to_owned(), step.details);
+    if model.joints.is_empty() {
+        facts.push(
+            "communication step: there is no joint to couple, so that none is bounded".to_owned(),
+        );
+    } else {
+        let step = of_assembly(&model)?;
+        facts.extend(
+            step.facts
+                .into_iter()
+                .map(|fact| format!("as structures and elements (SSP): {fact}")),
+        );
+        details.insert("communication_step".to_owned(), step.details);
+    }
     Ok(Report {
         kind: "assembly file".to_owned(),
         facts,

@@ -34,15 +34,16 @@ fn expect_kind(
     if kind == FileKind::Unknown || takes(kind) {
         return Ok(kind);
     }
-    let instead = command_for(kind, path);
+    let instead = match (kind, command_for(kind, path)) {
+        (FileKind::Pipe, _) => "a pipe cannot be read twice: save it as a file first".to_owned(),
+        (_, Some(command)) => format!("`{command}` takes it"),
+        (_, None) => "check the path".to_owned(),
+    };
     Err(CliError::Kind {
         path: path.to_owned(),
         found: kind.to_string(),
         expected,
-        instead: instead.map_or_else(
-            || "check the path".to_owned(),
-            |command| format!("`{command}` takes it"),
-        ),
+        instead,
     })
 }
 

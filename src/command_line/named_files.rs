@@ -48,7 +48,8 @@ fn check_kind(text: &StudyText, file: &NamedFile) -> Result<(), CliError> {
         | FileKind::Draws
         | FileKind::Fmu
         | FileKind::Ssp
-        | FileKind::Folder => true,
+        | FileKind::Folder
+        | FileKind::Pipe => true,
         _ => false,
     };
     match is_other {

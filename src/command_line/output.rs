@@ -43,7 +43,12 @@ pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliEr
         }
         return Ok(());
     }
-    let folder = match path.parent() {
+    // a link that leads to no file yet is written through all the same
+    let target = match path.exists() {
+        true => path.to_path_buf(),
+        false => whole_file::followed(path).map_err(unwritable)?,
+    };
+    let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
@@ -61,13 +66,6 @@ pub(super) fn check_output(path: &Path, others: &[&PathBuf]) -> Result<(), CliEr
                 io::ErrorKind::PermissionDenied,
                 why,
             )));
-        }
-        if let Ok(target) = fs::read_link(path) {
-            message(&format!(
-                "note: {} is a link and stays one: {} is written",
-                path.display(),
-                target.display()
-            ));
         }
     }
     let same = |other: &&&PathBuf| match (fs::canonicalize(path), fs::canonicalize(other)) {
@@ -216,6 +214,7 @@ pub(super) fn write_files(files: &[(&Path, &[u8])]) -> Result<(), CliError> {
         .partition(|(path, _)| is_standard_output(path) || is_stream(path));
     whole_file::write_all(&written)
         .map_err(|(path, source)| CliError::Unwritable { path, source })?;
+    written.iter().for_each(|(path, _)| tell_link(path));
     streams
         .iter()
         .try_for_each(|(path, contents)| match is_standard_output(path) {
@@ -225,6 +224,17 @@ pub(super) fn write_files(files: &[(&Path, &[u8])]) -> Result<(), CliError> {
                 source,
             }),
         })
+}
+
+/// Names what was written through a link; not before, since a command that is refused has written nothing.
+pub(super) fn tell_link(path: &Path) {
+    if let Ok(target) = fs::read_link(path) {
+        message(&format!(
+            "note: {} is a link and stays one: {} is written",
+            path.display(),
+            target.display()
+        ));
+    }
 }
 
 /// Writes a file whole or not at all.

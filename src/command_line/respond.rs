@@ -28,7 +28,7 @@ use super::bolt_files::of_bolts;
 use super::error::CliError;
 use super::kind::{expect, expect_joint_file};
 use super::named_files::{check_named, check_named_but_assembly};
-use super::output::{Wrote, check_output, is_standard_output, print, write_file};
+use super::output::{Wrote, check_output, is_standard_output, print, tell_link, write_file};
 use super::progress::Progress;
 
 /// `respond`
@@ -218,6 +218,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         Format::Universal => {
             let description = format!("{COMPUTED}: {}, {what}", study.name);
             write_uff58(&measured, output, &description)?;
+            tell_link(output);
         }
     }
     let functions = measured.functions().count();

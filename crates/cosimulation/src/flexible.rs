@@ -62,7 +62,8 @@ const PERIODS: f64 = 10.0;
 const ROUNDING: f64 = 1e-12;
 
 impl Flexible {
-    /// All structures and joints of an assembly, the joints for small motion about rest.
+    /// All structures and joints of an assembly, the joints for small motion about rest. Of an assembly without joints all
+    /// motion is common, and nothing bounds the step.
     ///
     /// # Errors
     /// [`AssemblyError`] where a joint gives no law.
@@ -369,8 +370,12 @@ impl Flexible {
     }
 }
 
-/// The smallest λ of C x = λ K x with K positive definite; `None` where it is not, or λ is not above zero.
+/// The smallest λ of C x = λ K x with K positive definite; `None` where it is not, or λ is not above zero, or there is no joint.
 fn smallest(damping: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<f64> {
+    // an empty matrix has no eigenvalues, which the library does not bear
+    if stiffness.is_empty() {
+        return None;
+    }
     let root = stiffness.clone().cholesky()?.l();
     let half = root.solve_lower_triangular(damping)?;
     let whole = root.solve_lower_triangular(&half.transpose())?;
@@ -436,6 +441,22 @@ mod tests {
             let radius = small(0.0).radius(LoadOfStep::Mean, step_s);
             assert!(radius <= 1.0 + 1e-9, "{step_s}: {radius}");
         }
+    }
+
+    #[test]
+    fn without_a_joint_nothing_bounds_the_step() {
+        let apart = Flexible {
+            frequency_rad_per_s: vec![0.0, 800.0],
+            damping_per_s: DMatrix::zeros(2, 2),
+            relative: DMatrix::zeros(0, 2),
+            stiffness: DMatrix::zeros(0, 0),
+            damping: DMatrix::zeros(0, 0),
+        };
+        let apart = apart.without_common_motion();
+        for load in LoadOfStep::BOUNDED {
+            assert_eq!(apart.bound(load), StepBound::Nothing);
+        }
+        assert_eq!(apart.estimate_s(), None);
     }
 
     #[test]

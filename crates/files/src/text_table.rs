@@ -5,13 +5,48 @@
 
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder, Terminator};
 
-/// The lines of a table that have cells, with their numbers from 1: blank ones and comments (`#`) are left out.
+/// The lines of a table that have cells, with their numbers from 1: blank ones, comments (`#`) and what is for Excel alone are left
+/// out.
 pub fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let is_comment = |line: &str| line.trim().is_empty() || line.trim_start().starts_with('#');
     let text = text.trim_start_matches('\u{feff}');
-    (1..)
-        .zip(text.lines())
-        .filter(move |(_, line)| !is_comment(line))
+    (1..).zip(lines(text)).filter(|(number, line)| {
+        let is_other = is_blank(line) || line.trim_start().starts_with('#');
+        !is_other && !(*number == 1 && is_for_excel(line))
+    })
+}
+
+/// Lines that end in LF, CR LF, or CR alone, as Excel for the Macintosh writes them.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
+        let (line, after) = rest.split_at(end);
+        let ends = ["\r\n", "\r", "\n"];
+        rest = ends
+            .iter()
+            .find_map(|end| after.strip_prefix(end))
+            .unwrap_or_default();
+        Some(line)
+    })
+}
+
+/// Whether a line has nothing in any cell: a spreadsheet writes `;;;` for a row that was emptied.
+#[must_use]
+pub fn is_blank(line: &str) -> bool {
+    line.chars()
+        .all(|c| c.is_whitespace() || [';', ','].contains(&c))
+}
+
+/// Whether a table's first line only tells Excel what parts the cells, such as `sep=;`.
+#[must_use]
+pub fn is_for_excel(line: &str) -> bool {
+    let line = line.trim().trim_matches('"').to_lowercase();
+    let separator = line.strip_prefix("sep=");
+    // a tab at the end is a blank
+    separator.is_some_and(|separator| separator.chars().count() <= 1)
 }
 
 /// What parts the cells of a table: semicolons, tabs or commas, whichever of them its row of names has first in this order.
@@ -27,6 +62,8 @@ pub struct Cells {
     tokeniser: Reader,
     bytes: Vec<u8>,
     ends: Vec<usize>,
+    /// Columns of the table, where they are known.
+    columns: Option<usize>,
 }
 
 impl Cells {
@@ -41,7 +78,25 @@ impl Cells {
             tokeniser,
             bytes: Vec::new(),
             ends: Vec::new(),
+            columns: None,
         }
+    }
+
+    /// For rows of a table of so many columns: empty cells behind these, which a separator at the end of a line makes, are none.
+    #[must_use]
+    pub fn of_columns(self, columns: usize) -> Self {
+        Self {
+            columns: Some(columns),
+            ..self
+        }
+    }
+
+    /// The names of the columns, which are as many as have one: what is empty at the end is none. Rows that come after have as many.
+    pub fn names(&mut self, row: &str) -> Vec<&str> {
+        self.columns = None;
+        let columns = self.of(row).iter().rposition(|name| !name.is_empty());
+        self.columns = Some(columns.map_or(0, |last| last + 1));
+        self.of(row)
     }
 
     /// The cells of a row, without blanks and quotation marks around them (RFC 4180: a separator in a quoted cell is part of it, two
@@ -65,12 +120,19 @@ impl Cells {
         }
         let ends = &self.ends[..count];
         let starts = std::iter::once(0).chain(ends.iter().copied());
-        starts
+        let columns = self.columns;
+        let mut cells: Vec<&str> = starts
             .zip(ends)
             .map(|(start, &end)| {
                 unquoted(str::from_utf8(&self.bytes[start..end]).unwrap_or_default())
             })
-            .collect()
+            .collect();
+        while columns.is_some_and(|columns| cells.len() > columns)
+            && cells.last().is_some_and(|cell| cell.is_empty())
+        {
+            cells.pop();
+        }
+        cells
     }
 }
 
@@ -106,10 +168,34 @@ mod tests {
     }
 
     #[test]
+    fn a_separator_at_the_end_of_lines_makes_no_column() {
+        let mut cells = Cells::separated_by(';');
+        assert_eq!(cells.names("a;b;;"), ["a", "b"]);
+        for (row, expected) in [
+            ("1;2;", vec!["1", "2"]),
+            ("1;2", vec!["1", "2"]),
+            ("1;;;", vec!["1", ""]),
+            ("1;2;3", vec!["1", "2", "3"]),
+            ("1;2;;3;", vec!["1", "2", "", "3"]),
+            ("1", vec!["1"]),
+        ] {
+            assert_eq!(cells.of(row), expected, "{row}");
+        }
+        assert_eq!(Cells::separated_by(',').of_columns(1).of("1,"), ["1"]);
+    }
+
+    #[test]
     fn rows_have_the_numbers_of_their_lines() {
         let text = "\u{feff}# a comment\n\n  # another\na,b\r\n \n1,2";
         let found: Vec<_> = rows(text).collect();
         assert_eq!(found, [(4, "a,b"), (6, "1,2")]);
+        let text = "sep=;\r\na;b\r\n;;\r\n1;2\r\n";
+        let found: Vec<_> = rows(text).collect();
+        assert_eq!(found, [(2, "a;b"), (4, "1;2")]);
+        let found: Vec<_> = rows("a;b\r1;2\r\r3;4").collect();
+        assert_eq!(found, [(1, "a;b"), (2, "1;2"), (4, "3;4")]);
+        assert!(["sep=;", "\"sep=,\"", "SEP=\t"].map(is_for_excel) == [true; 3]);
+        assert!(["separation;1", "sep=12", "a;sep=;"].map(is_for_excel) == [false; 3]);
         assert_eq!(["a,b", "a;b,c", "a\tb"].map(separator), [',', ';', '\t']);
     }
 }

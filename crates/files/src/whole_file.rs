@@ -6,9 +6,12 @@ use std::path::{Path, PathBuf};
 
 use crate::inputs;
 
+/// Symbolic links that are followed one after another, as many as operating systems do.
+const MOST_LINKS: usize = 40;
+
 /// Writes `contents` to `path` through a temporary file in the same folder that is renamed at the end.
 ///
-/// A symbolic link keeps pointing where it did. What is no regular file (a pipe, `/dev/stdout`) is written to directly.
+/// A symbolic link keeps pointing where it did, also one to a file that does not exist yet. What is no regular file (a pipe, `/dev/stdout`) is written to directly.
 ///
 /// # Errors
 ///
@@ -72,6 +75,23 @@ fn replace(prepared: Vec<(&Path, Prepared, Option<Vec<u8>>)>) -> Result<(), (Pat
     Ok(())
 }
 
+/// Where a path leads: what it names itself, or the end of the symbolic links that it begins, whether or not that exists.
+///
+/// # Errors
+///
+/// Where links lead to each other in a circle.
+pub fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        let Ok(next) = fs::read_link(&target) else {
+            return Ok(target);
+        };
+        target = folder_of(&target).join(next);
+    }
+    let why = "its symbolic links do not come to an end";
+    Err(io::Error::new(io::ErrorKind::InvalidInput, why))
+}
+
 /// What to do where a file cannot be written, by what the operating system or [`inputs::check`] says.
 #[must_use]
 pub fn advice(source: &io::Error) -> &'static str {
@@ -94,7 +114,8 @@ impl Prepared {
             Ok(found) if found.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
             Ok(found) if !found.is_file() => return Ok(None),
             Ok(_) => fs::canonicalize(path)?,
-            Err(_) => path.to_path_buf(),
+            // a link to what does not exist yet is followed as well
+            Err(_) => followed(path)?,
         };
         inputs::check(&target)?;
         let mut temporary = new_temporary(&folder_of(&target))?;
@@ -226,6 +247,29 @@ mod tests {
         write(&link, b"new").unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&target).unwrap(), b"new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_what_does_not_exist_yet_stays_and_makes_it() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("far")).unwrap();
+        symlink("far/target", path("link")).unwrap();
+        symlink("link", path("first")).unwrap();
+        assert_eq!(followed(&path("first")).unwrap(), path("far/target"));
+        write(&path("first"), b"new").unwrap();
+        assert_eq!(fs::read(path("far/target")).unwrap(), b"new");
+        assert!(fs::symlink_metadata(path("link")).unwrap().is_symlink());
+        assert_eq!(entries(folder.path()), ["far", "first", "link"]);
+
+        symlink("missing/target", path("nowhere")).unwrap();
+        let refused = write(&path("nowhere"), b"new").unwrap_err();
+        assert_eq!(refused.kind(), io::ErrorKind::NotFound);
+        symlink("circle", path("circle")).unwrap();
+        assert!(write(&path("circle"), b"new").is_err());
+        assert!(fs::symlink_metadata(path("circle")).unwrap().is_symlink());
     }
 
     #[cfg(unix)]

@@ -37,7 +37,7 @@ pub use mat::{read_mat, read_mat_from};
 pub use noise::polluted;
 pub use npz::{read_npz, read_npz_from};
 pub use options::ReadOptions;
-pub use passivity::{Asked, beyond_noise, feeds_energy, turns_backwards};
+pub use passivity::{Asked, beyond_noise, feeds_energy, turns_backwards, without_phase};
 pub use quantity::{Quantity, receptance_unit};
 pub use read::{Container, read_frfs, read_frfs_watched};
 pub use reading::{FrfReading, SkippedFunction};

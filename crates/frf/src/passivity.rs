@@ -16,6 +16,33 @@ const USUAL_NOISE: f64 = 0.02;
 /// The part of the lines, those of the smallest values, at which noise that does not follow the values shows.
 const SMALLEST: f64 = 0.25;
 
+/// Why functions tell nothing by their phases, if none of them has any: an energy that a drive point takes up, or a damping.
+#[must_use]
+pub fn without_phase<'a>(
+    functions: impl IntoIterator<Item = &'a [Complex64]>,
+) -> Option<&'static str> {
+    let values = functions.into_iter().flatten();
+    let values: Vec<Complex64> = values.filter(|h| h.norm() > 0.0).copied().collect();
+    let first = values.first()?;
+    let all = |is_so: &dyn Fn(&Complex64) -> bool| values.iter().all(is_so);
+    // magnitudes of mobilities are receptances along −j
+    let are_real = all(&|h| h.im == 0.0);
+    if values.len() < FEWEST || !are_real && !all(&|h| h.re == 0.0 && h.im < 0.0) {
+        return None;
+    }
+    let have_one_sign = all(&|h| h.re * first.re >= 0.0);
+    Some(match have_one_sign {
+        true => {
+            "no function has an imaginary part as measured, and all have one sign: magnitudes alone? Save complex numbers, or phases \
+             beside the magnitudes: nothing tells damping or the energy that drive points take"
+        }
+        false => {
+            "no function has an imaginary part: real parts alone, or a model without damping? Save complex numbers: nothing tells \
+             damping or the energy that drive points take"
+        }
+    })
+}
+
 /// Which lines of a function are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
@@ -128,6 +155,42 @@ mod tests {
     fn resonance(line: usize) -> Complex64 {
         let ratio = line as f64 / 50.0;
         Complex64::new(1.0 - ratio * ratio, 0.02 * ratio).inv()
+    }
+
+    #[test]
+    fn functions_without_any_phase_are_told() {
+        let function: Vec<Complex64> = (1..100).map(resonance).collect();
+        let of = |change: fn(f64, Complex64) -> Complex64| {
+            let own: Vec<Complex64> = (1..)
+                .zip(&function)
+                .map(|(line, h)| change(f64::from(line), *h))
+                .collect();
+            without_phase([own.as_slice(), own.as_slice()])
+        };
+        let is = |found: Option<&str>, word: &str| found.is_some_and(|found| found.contains(word));
+        assert_eq!(of(|_, h| h), None);
+        assert_eq!(of(|_, h| -h), None);
+        assert!(is(of(|_, h| h.norm().into()), "magnitudes alone?"));
+        // as Quantity::to_receptance makes it of magnitudes of mobilities and of accelerances
+        assert!(is(
+            of(|line, h| h.norm() / Complex64::new(0.0, line)),
+            "magnitudes alone?"
+        ));
+        assert!(is(
+            of(|line, h| (-h.norm() / line).into()),
+            "magnitudes alone?"
+        ));
+        assert!(is(of(|_, h| h.re.into()), "real parts alone"));
+        assert_eq!(without_phase([]), None);
+        assert_eq!(without_phase([[Complex64::new(1.0, 0.0)].as_slice()]), None);
+        let one_has = [
+            [Complex64::new(1.0, 0.0); 3],
+            [Complex64::new(1.0, -0.1); 3],
+        ];
+        assert_eq!(
+            without_phase(one_has.iter().map(|own| own.as_slice())),
+            None
+        );
     }
 
     fn both(function: &[Complex64]) -> [bool; 2] {

@@ -23,6 +23,28 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// What a quantity is called: by its name, or by what is measured for it. Words that mean different things to different people,
+    /// such as admittance, are left out.
+    pub(super) const WORDS: [(Self, &'static [&'static str]); 3] = [
+        (
+            Self::Receptance,
+            &["receptance", "compliance", "displacement"],
+        ),
+        (Self::Mobility, &["mobility", "velocity"]),
+        (
+            Self::Accelerance,
+            &["accelerance", "inertance", "acceleration"],
+        ),
+    ];
+
+    /// A quantity by one of its words, in capitals or not.
+    pub(super) fn named(word: &str) -> Option<Self> {
+        let word = word.to_lowercase();
+        let mut all = Self::WORDS.iter();
+        all.find(|(_, words)| words.contains(&word.as_str()))
+            .map(|(quantity, _)| *quantity)
+    }
+
     /// The quantity with so many time derivatives of displacement above the load: 0, 1 or 2.
     pub(super) fn from_time_derivatives(derivatives: i32) -> Option<Self> {
         match derivatives {
@@ -118,6 +140,20 @@ mod tests {
         assert_eq!(Quantity::Receptance.to_receptance(value, 0.0), Some(value));
         assert_eq!(Quantity::Mobility.to_receptance(value, 0.0), None);
         assert_eq!(Quantity::Accelerance.to_receptance(value, 0.0), None);
+    }
+
+    #[test]
+    fn a_quantity_has_the_words_that_universal_files_use() {
+        for (word, expected) in [
+            ("Inertance", Some(Quantity::Accelerance)),
+            ("acceleration", Some(Quantity::Accelerance)),
+            ("compliance", Some(Quantity::Receptance)),
+            ("displacement", Some(Quantity::Receptance)),
+            ("velocity", Some(Quantity::Mobility)),
+            ("admittance", None),
+        ] {
+            assert_eq!(Quantity::named(word), expected, "{word}");
+        }
     }
 
     #[test]

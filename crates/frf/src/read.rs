@@ -5,6 +5,7 @@ use std::io::{BufRead, BufReader, Read, Seek};
 use std::path::Path;
 
 use bolted_joint_files::inputs;
+use bolted_joint_files::text_table::is_for_excel;
 
 use super::counted::Counted;
 use super::csv::read_csv_from;
@@ -44,7 +45,7 @@ impl Container {
             .trim_start_matches('\u{feff}')
             .lines()
             .map(str::trim)
-            .find(|line| !line.is_empty())
+            .find(|line| !line.is_empty() && !is_for_excel(line))
             .unwrap_or_default()
             .to_lowercase();
         if beginning.starts_with(b"PK") {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use super::summary::{FileSummary, StatedBy, Statements, coherence_noise};
-use super::{Coherence, Dof, Frf, FrfError, FrfSet};
+use super::{Coherence, Dof, Frf, FrfError, FrfSet, without_phase};
 
 /// A function of a file that is no frequency response function and was passed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +69,13 @@ impl FrfReading {
                 self.path.display()
             )
         })
+    }
+
+    /// What its user is told where no function has a phase, so that magnitudes may have been saved alone.
+    #[must_use]
+    pub fn phase_warning(&self) -> Option<String> {
+        let why = without_phase(self.functions.iter().map(Frf::receptance))?;
+        Some(format!("{}: {why}", self.path.display()))
     }
 
     /// What was read, and by whose word the values are what they were taken for.

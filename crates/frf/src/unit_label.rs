@@ -28,6 +28,8 @@ const fn unit(length: i32, force: i32, time: i32, to_si: f64) -> Unit {
 const SYMBOLS: &[(&[&str], Unit)] = &[
     (&["1"], ONE),
     (&["rad", "RAD"], ONE),
+    (&["mrad", "MRAD"], unit(0, 0, 0, 1e-3)),
+    (&["urad", "µrad", "μrad"], unit(0, 0, 0, 1e-6)),
     (&["deg", "DEG", "°"], unit(0, 0, 0, PI / 180.0)),
     (&["m", "M"], unit(1, 0, 0, 1.0)),
     (&["cm", "CM"], unit(1, 0, 0, 1e-2)),
@@ -43,6 +45,8 @@ const SYMBOLS: &[(&[&str], Unit)] = &[
     (&["lbf", "lb", "LBF", "LB"], unit(0, 1, 0, LBF)),
     (&["kgf", "KGF"], unit(0, 1, 0, KGF)),
     (&["Nm", "NM"], unit(1, 1, 0, 1.0)),
+    (&["Nmm", "NMM"], unit(1, 1, 0, 1e-3)),
+    (&["kNm", "KNM"], unit(1, 1, 0, 1e3)),
     // 1 kg = 1 N·s²/m, so that 1/kg is an accelerance
     (&["kg", "KG"], unit(-1, 1, 2, 1.0)),
     // standard gravity: vibration labels never mean grams
@@ -239,6 +243,19 @@ mod tests {
             ("µm/kN", 1e-9),
             ("deg", PI / 180.0),
             ("1/m2", 1.0),
+            ("mm/Nmm", 1.0),
+            ("m/Nmm", 1e3),
+            ("rad/Nmm", 1e3),
+            ("rad/(N*mm)", 1e3),
+            ("rad/(N mm)", 1e3),
+            ("rad/N·mm", 1e3),
+            ("rad/N.mm", 1e3),
+            ("mrad/N", 1e-3),
+            ("mrad/Nm", 1e-3),
+            ("mrad/Nmm", 1.0),
+            ("mrad/s^2/N", 1e-3),
+            ("µrad/N", 1e-6),
+            ("rad/kNm", 1e-3),
         ] {
             let found = Unit::from_label(label).unwrap().to_si;
             assert!((found - to_si).abs() < 1e-15 * to_si, "{label}: {found}");

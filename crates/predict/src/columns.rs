@@ -70,7 +70,7 @@ pub(super) fn read<const N: usize>(
     let separator = text_table::separator(header);
     let mut tokeniser = Cells::separated_by(separator);
     let names: Vec<String> = tokeniser
-        .of(header)
+        .names(header)
         .into_iter()
         .map(str::to_owned)
         .collect();

@@ -63,12 +63,25 @@ struct Candidate {
     references: BTreeSet<Dof>,
     /// Lowest and highest frequency, Hz.
     band_hz: [f64; 2],
+    /// What is to be known of its functions.
+    warning: Option<String>,
 }
 
 impl Candidate {
     /// Where something responds or is excited.
     fn points(&self) -> BTreeSet<Dof> {
         self.responses.union(&self.references).copied().collect()
+    }
+
+    /// The words of its name, in small letters and without its ending.
+    fn words(&self) -> Vec<String> {
+        let name = self.name.to_lowercase();
+        let stem = name.split('.').next().unwrap_or_default();
+        let words = stem.split(|c: char| !c.is_alphanumeric());
+        words
+            .filter(|word| !word.is_empty())
+            .map(str::to_owned)
+            .collect()
     }
 
     /// Its file, or its files, as a study names them.
@@ -105,8 +118,9 @@ impl Candidate {
 
 /// A study for the files of a folder: of two parts, and of both together; or in space of a chain of parts, and of them all.
 ///
-/// Which file is which is told by names: `a`, `b`, and `assembly`, `joined` or `c`; of functions in space by what they contain:
-/// the points of the assembly are those of all parts. Else the one that has to be functions and comes last by name is the assembly.
+/// Which file is which is told by names: `a`, `b`, and `assembly`, `joined`, `ab`, the names of two others put together or `c`; of
+/// functions in space by what they contain: the points of the assembly are those of all parts. Else the one that has to be functions
+/// and comes last by name is the assembly, and the study says that it was guessed.
 ///
 /// # Errors
 /// [`DraftError`] if the folder cannot be read, or has fewer than three such files.
@@ -134,7 +148,7 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
         found = together(found);
     }
     let place = assembly(&found, is_in_space);
-    let (Some(place), true) = (place, found.len() >= 3) else {
+    let (Some((place, by)), true) = (place, found.len() >= 3) else {
         let names: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
         return Err(DraftError::TooFew {
             path: folder.to_owned(),
@@ -146,6 +160,7 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
         });
     };
     let assembly = found.remove(place);
+    in_order(&mut found);
     let most = if is_in_space { space::MOST_PARTS } else { 2 };
     let others = found.split_off(most.min(found.len()));
     let [a, b, ..] = found.as_slice() else {
@@ -164,6 +179,12 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
         parts.join(", part ").replacen(' ', " is taken to be ", 1),
         assembly.named()
     )];
+    if by == ToldBy::Order {
+        notes.push(
+            "which file is which was guessed by the order of their names: look for CHECK in the study, or call them a, b and assembly"
+                .to_owned(),
+        );
+    }
     if !others.is_empty() {
         let names = others.iter().map(Candidate::named);
         notes.push(format!(
@@ -171,6 +192,11 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
             names.collect::<Vec<_>>().join(", ")
         ));
     }
+    let used = found.iter().chain([&assembly]);
+    notes.extend(
+        used.filter_map(|own| own.warning.as_ref())
+            .map(|own| format!("warning: {own}")),
+    );
     if !refused.is_empty() {
         notes.push(format!("not read: {}", refused.trim_start_matches("; ")));
     }
@@ -180,8 +206,8 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     });
     Ok(Draft {
         text: match is_in_space {
-            true => space::text(&found, &assembly),
-            false => text(a, b, &assembly),
+            true => space::text(&found, &assembly, by),
+            false => text(a, b, &assembly, by),
         },
         notes,
     })
@@ -202,23 +228,88 @@ fn together(found: Vec<Candidate>) -> Vec<Candidate> {
     all
 }
 
-/// Which of the files is the assembly.
-fn assembly(found: &[Candidate], is_in_space: bool) -> Option<usize> {
-    let named = |words: &[&str]| {
-        found.iter().position(|own| {
-            let name = own.name.to_lowercase();
-            !own.is_modal && words.iter().any(|word| name.starts_with(word))
-        })
+/// By what a file was given its role.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ToldBy {
+    /// Its name, or the points of all parts that it has.
+    ItsOwn,
+    /// Its place among the names, which means nothing: its author has to look.
+    Order,
+}
+
+impl ToldBy {
+    /// What stands beside a role in the study.
+    fn comment(self, what: &str) -> String {
+        match self {
+            Self::ItsOwn => what.to_owned(),
+            Self::Order => format!("CHECK: {what}? Guessed by the order of the files' names"),
+        }
+    }
+}
+
+/// Which of the files is the assembly. Names come before points and before the order: a folder with `a`, `b` and `ab` says it all.
+fn assembly(found: &[Candidate], is_in_space: bool) -> Option<(usize, ToldBy)> {
+    let first = |is_one: &dyn Fn(&Candidate) -> bool| {
+        found.iter().position(|own| !own.is_modal && is_one(own))
     };
-    let of_all = || {
-        let of_all = |own: &Candidate| found.iter().all(|other| own.contains(other));
-        let place = found.iter().position(|own| !own.is_modal && of_all(own));
-        place.filter(|_| is_in_space)
+    let named = |own: &Candidate| own.words().iter().any(|word| is_assembly(word));
+    let of_two = |own: &Candidate| is_of_two(own, found);
+    let of_all = |own: &Candidate| is_in_space && found.iter().all(|other| own.contains(other));
+    let third = |own: &Candidate| {
+        let name = own.name.to_lowercase();
+        ["c.", "c_", "c-"].iter().any(|word| name.starts_with(word))
     };
-    named(&["assembly", "asm", "joined", "bolted", "coupled"])
-        .or_else(of_all)
-        .or_else(|| named(&["c.", "c_", "c-"]))
-        .or_else(|| found.iter().rposition(|own| !own.is_modal))
+    let told = first(&named)
+        .or_else(|| first(&of_two))
+        .or_else(|| first(&of_all))
+        .or_else(|| first(&third));
+    if let Some(place) = told {
+        return Some((place, ToldBy::ItsOwn));
+    }
+    // what is called a or b is a part; of three files the third is what is left
+    let has = |own: &Candidate, letter: &str| own.words().iter().any(|word| word == letter);
+    let is_part = |own: &Candidate| has(own, "a") || has(own, "b");
+    let are_named = ["a", "b"].map(|letter| found.iter().filter(|own| has(own, letter)).count());
+    let by = match (are_named, found.len()) {
+        ([1, 1], 3) => ToldBy::ItsOwn,
+        _ => ToldBy::Order,
+    };
+    let last = |is_one: &dyn Fn(&Candidate) -> bool| {
+        found.iter().rposition(|own| !own.is_modal && is_one(own))
+    };
+    last(&|own| !is_part(own))
+        .map(|place| (place, by))
+        .or_else(|| last(&|_| true).map(|place| (place, ToldBy::Order)))
+}
+
+/// A word for parts that are bolted together.
+fn is_assembly(word: &str) -> bool {
+    let begins = ["assem", "asm", "joined", "bolted", "coupled"];
+    word == "ab" || begins.iter().any(|known| word.starts_with(known))
+}
+
+/// Whether a file has the names of two others put together, such as `holder-tool` beside `holder` and `tool`.
+fn is_of_two(own: &Candidate, found: &[Candidate]) -> bool {
+    let whole = own.words().concat();
+    let others = found.iter().filter(|other| other.name != own.name);
+    let others: Vec<String> = others.map(|other| other.words().concat()).collect();
+    let pairs = (0..others.len()).flat_map(|one| (0..others.len()).map(move |other| (one, other)));
+    pairs
+        .filter(|(one, other)| one != other)
+        .any(|(one, other)| whole == format!("{}{}", others[one], others[other]))
+}
+
+/// The parts in their order, which is that of the letters they are called by, if one of them is called `a` and another `b`.
+fn in_order(parts: &mut [Candidate]) {
+    let letter = |own: &Candidate| own.words().into_iter().find(|word| word.len() == 1);
+    let has = |wanted: &str| {
+        parts
+            .iter()
+            .any(|own| letter(own).is_some_and(|own| own == wanted))
+    };
+    if has("a") && has("b") {
+        parts.sort_by_key(|own| letter(own).unwrap_or_else(|| "~".to_owned()));
+    }
 }
 
 /// `None` for a file of another kind.
@@ -226,19 +317,25 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
     let name = path.file_name()?.to_str()?.to_owned();
     match FileKind::of(path) {
         FileKind::Functions(_) => {
-            let set =
-                read_frfs(path, &ReadOptions::default()).and_then(|reading| reading.into_set());
-            Some(set.map_err(|refused| refused.to_string()).map(|set| {
-                let hz = set.frequency_hz();
-                Candidate {
-                    name,
-                    further: Vec::new(),
-                    is_modal: false,
-                    responses: set.functions().map(|own| own.0).collect(),
-                    references: set.functions().map(|own| own.1).collect(),
-                    band_hz: [hz[0], hz[hz.len() - 1]],
-                }
-            }))
+            let read = read_frfs(path, &ReadOptions::default()).and_then(|reading| {
+                let warning = reading.phase_warning();
+                reading.into_set().map(|set| (set, warning))
+            });
+            Some(
+                read.map_err(|refused| refused.to_string())
+                    .map(|(set, warning)| {
+                        let hz = set.frequency_hz();
+                        Candidate {
+                            name,
+                            further: Vec::new(),
+                            is_modal: false,
+                            responses: set.functions().map(|own| own.0).collect(),
+                            references: set.functions().map(|own| own.1).collect(),
+                            band_hz: [hz[0], hz[hz.len() - 1]],
+                            warning,
+                        }
+                    }),
+            )
         }
         FileKind::Modes => Some(
             ModalModel::read(path)
@@ -257,6 +354,7 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
                         responses: points.clone(),
                         references: points,
                         band_hz: [0.0, last],
+                        warning: None,
                     }
                 }),
         ),
@@ -264,7 +362,7 @@ fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
     }
 }
 
-fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
+fn text(a: &Candidate, b: &Candidate, assembly: &Candidate, by: ToldBy) -> String {
     let points: Vec<String> = assembly
         .points()
         .iter()
@@ -274,14 +372,17 @@ fn text(a: &Candidate, b: &Candidate, assembly: &Candidate) -> String {
         "# A joint between two parts, from functions of each part and of both together.\n\
          # Keys: docs/file-formats.md. CHECK: what only you can know.\n\
          method = \"frf-decoupling\"\nname = \"joint of {} and {}\"          # CHECK: what the joint is called\n\n\
-         [a]                                   # the first part\n{}\n[b]                                   # the second part\n{}\n\
-         [assembly]                            # both, bolted together\nfrf = {}\n\
+         [a]                                   # {}\n{}\n[b]                                   # {}\n{}\n\
+         [assembly]                            # {}\nfrf = {}\n\
          points = [{}]   # CHECK: points of part b (points_on_a for those of a)\n\n\
          [joint]\n{}\n\n{}",
         stem(a),
         stem(b),
+        by.comment("the first part"),
         part(a),
+        by.comment("the second part"),
         part(b),
+        by.comment("both, bolted together"),
         assembly.files(),
         points.join(", "),
         model(&[a, b]),
@@ -351,4 +452,58 @@ fn stem(own: &Candidate) -> String {
 /// A number that TOML takes for one with a fraction.
 fn toml_float(value: f64) -> String {
     format!("{value:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(name: &str) -> Candidate {
+        Candidate {
+            name: name.to_owned(),
+            further: Vec::new(),
+            is_modal: name.ends_with(".toml"),
+            responses: BTreeSet::new(),
+            references: BTreeSet::new(),
+            band_hz: [0.0, 1.0],
+            warning: None,
+        }
+    }
+
+    #[test]
+    fn names_tell_the_assembly_from_the_parts() {
+        use ToldBy::{ItsOwn, Order};
+        #[rustfmt::skip]
+        let cases: &[(&[&str], &str, ToldBy, [&str; 2])] = &[
+            (&["a.uff", "ab.uff", "b.uff"], "ab.uff", ItsOwn, ["a.uff", "b.uff"]),
+            (&["frf_a.csv", "frf_ab.csv", "frf_b.csv"], "frf_ab.csv", ItsOwn, ["frf_a.csv", "frf_b.csv"]),
+            (&["a.uff", "assembled.uff", "b.uff"], "assembled.uff", ItsOwn, ["a.uff", "b.uff"]),
+            (&["a.uff", "b.uff", "test_coupled.uff"], "test_coupled.uff", ItsOwn, ["a.uff", "b.uff"]),
+            (&["holder.csv", "holder-tool.csv", "tool.csv"], "holder-tool.csv", ItsOwn, ["holder.csv", "tool.csv"]),
+            (&["a-modes.toml", "b.uff", "joined.uff"], "joined.uff", ItsOwn, ["a-modes.toml", "b.uff"]),
+            (&["a.uff", "a2.uff", "assembly.uff", "b.uff"], "assembly.uff", ItsOwn, ["a.uff", "b.uff"]),
+            (&["a.csv", "b.csv", "c.csv"], "c.csv", ItsOwn, ["a.csv", "b.csv"]),
+            (&["1_whole.uff", "a.uff", "b.uff"], "1_whole.uff", ItsOwn, ["a.uff", "b.uff"]),
+            (&["one.uff", "three.uff", "two.uff"], "two.uff", Order, ["one.uff", "three.uff"]),
+            (&["a.uff", "b.uff", "one.uff", "two.uff"], "two.uff", Order, ["a.uff", "b.uff"]),
+        ];
+        for (names, expected, by, parts) in cases {
+            let mut found: Vec<Candidate> = names.iter().map(|name| named(name)).collect();
+            let (place, told) = assembly(&found, false).unwrap();
+            assert_eq!(
+                (found.remove(place).name.as_str(), told),
+                (*expected, *by),
+                "{names:?}"
+            );
+            in_order(&mut found);
+            let found: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
+            assert_eq!(found[..2], *parts, "{names:?}");
+        }
+        let drafted = text(&named("a.uff"), &named("b.uff"), &named("z.uff"), Order);
+        assert_eq!(
+            drafted.matches("Guessed by the order").count(),
+            3,
+            "{drafted}"
+        );
+    }
 }

@@ -27,6 +27,12 @@ pub enum ShowError {
         /// What it is.
         found: String,
     },
+    /// No file on a disk.
+    #[error("{}: found a pipe or a device, expected a file; a pipe cannot be read twice: save it as a file first", path.display())]
+    Pipe {
+        /// Its path.
+        path: PathBuf,
+    },
     /// Measured functions that cannot be read.
     #[error(transparent)]
     Functions(#[from] FrfError),

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use bolted_joint_frf::{
     Dof, FileSummary, FrfReading, FrfSet, ReadOptions, StatedBy, UnitStatement, read_frfs,
-    receptance_unit, resonances,
+    receptance_unit, resonances, without_phase,
 };
 use bolted_joint_report::{DrawnFunction, FunctionGroup, ShownPicture};
 use serde_json::{Value, json};
@@ -312,6 +312,8 @@ fn found_resonances(set: &FrfSet, shown: &mut Shown) {
 
 fn checks(set: &FrfSet, shown: &mut Shown) {
     let drive = drive_points(set);
+    let has_no_phase = without_phase(set.functions().map(|own| own.2));
+    shown.warnings.extend(has_no_phase.map(str::to_owned));
     if drive.is_empty() {
         shown.fact(
             "drive points",
@@ -325,10 +327,11 @@ fn checks(set: &FrfSet, shown: &mut Shown) {
         .map(|own| own.dof)
         .collect();
     if !good.is_empty() {
-        shown.fact(
-            "drive points",
-            format!("{}: take energy, as they must", some(&good, LISTED)),
-        );
+        let energy = match has_no_phase {
+            None => "take energy, as they must",
+            Some(_) => "without a phase nothing tells whether they take energy",
+        };
+        shown.fact("drive points", format!("{}: {energy}", some(&good, LISTED)));
     }
     for own in drive.iter().filter(|own| bad(own.active_share)) {
         let why = match (own.active_share > 0.5, own.turns_backwards) {

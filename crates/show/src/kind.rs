@@ -1,6 +1,7 @@
 //! What kind of file a path is: told by how it begins, and by its name where that leaves it open.
 
 use std::fmt;
+use std::fs;
 use std::io::Read as _;
 use std::path::Path;
 
@@ -44,6 +45,8 @@ pub enum FileKind {
     OtherZip,
     /// A folder.
     Folder,
+    /// A pipe or a device: to tell what comes out of it is to read it, and then nothing is left for its reader.
+    Pipe,
     /// Something else, or nothing that can be read: its reader says what is wrong.
     Unknown,
 }
@@ -54,6 +57,9 @@ impl FileKind {
     pub fn of(path: &Path) -> Self {
         if path.is_dir() {
             return Self::Folder;
+        }
+        if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+            return Self::Pipe;
         }
         let mut beginning = Vec::new();
         let is_read = inputs::open(path)
@@ -212,6 +218,7 @@ impl fmt::Display for FileKind {
             Self::OtherJson => f.write_str("a JSON file"),
             Self::OtherZip => f.write_str("a zip archive"),
             Self::Folder => f.write_str("a folder"),
+            Self::Pipe => f.write_str("a pipe or a device"),
             Self::Unknown => f.write_str("a file of an unknown kind"),
         }
     }
@@ -244,13 +251,37 @@ pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
         | FileKind::Modes
         | FileKind::Ssp
         | FileKind::Study(None) => Some(format!("bolted-joint show {path}")),
-        FileKind::OtherJson | FileKind::OtherZip | FileKind::Folder | FileKind::Unknown => None,
+        FileKind::OtherJson
+        | FileKind::OtherZip
+        | FileKind::Folder
+        | FileKind::Pipe
+        | FileKind::Unknown => None,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_not_read_to_tell_what_it_is() {
+        use std::io::Write as _;
+        use std::os::fd::AsRawFd as _;
+
+        let (mut reader, mut writer) = std::io::pipe().unwrap();
+        writer
+            .write_all(b"{\"format\": \"bolted-joint/1\"}")
+            .unwrap();
+        drop(writer);
+        let path = format!("/dev/fd/{}", reader.as_raw_fd());
+        assert_eq!(FileKind::of(path.as_ref()), FileKind::Pipe);
+        let refused = crate::show(path.as_ref()).unwrap_err().to_string();
+        assert!(refused.contains("cannot be read twice"), "{refused}");
+        let mut left = String::new();
+        reader.read_to_string(&mut left).unwrap();
+        assert!(left.starts_with("{\"format\""), "{left}");
+    }
 
     #[test]
     fn files_are_told_by_what_is_in_them() {

@@ -50,6 +50,11 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
         FileKind::Draws => draws::shown(path)?,
         FileKind::Fmu => fmu::shown(path)?,
         FileKind::Ssp => system::shown(path)?,
+        FileKind::Pipe => {
+            return Err(ShowError::Pipe {
+                path: path.to_owned(),
+            });
+        }
         FileKind::Folder | FileKind::OtherJson | FileKind::OtherZip => {
             return Err(ShowError::Kind {
                 path: path.to_owned(),

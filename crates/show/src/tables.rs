@@ -135,7 +135,7 @@ fn names(text: &str) -> Option<Vec<String>> {
     let mut cells = Cells::separated_by(separator(header));
     Some(
         cells
-            .of(header)
+            .names(header)
             .iter()
             .map(|name| name.to_lowercase())
             .collect(),
@@ -151,7 +151,7 @@ pub(crate) fn shown(path: &Path, kind: TableKind) -> Result<Shown, TextFileError
     let header = lines.next().map_or("", |(_, header)| header);
     let separator = separator(header);
     let mut cells = Cells::separated_by(separator);
-    let names: Vec<String> = cells.of(header).into_iter().map(str::to_owned).collect();
+    let names: Vec<String> = cells.names(header).into_iter().map(str::to_owned).collect();
     let mut ranges: Vec<Option<[f64; 2]>> = vec![None; names.len()];
     let mut decimal = Decimal::beside(separator);
     let mut count = 0;

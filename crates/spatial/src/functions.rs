@@ -15,10 +15,10 @@ pub(crate) struct FileOfFunctions<'t> {
     pub(crate) units: Option<&'t UnitsTable>,
 }
 
-/// What was read of it, and what had to be assumed.
+/// What was read of it, and what had to be assumed or is missing.
 pub(crate) struct Functions {
     pub(crate) set: FrfSet,
-    pub(crate) assumed: Option<String>,
+    pub(crate) assumed: Vec<String>,
 }
 
 impl Reader<'_> {
@@ -39,7 +39,8 @@ impl Reader<'_> {
         let reading = readings
             .and_then(FrfReading::joined)
             .map_err(StudyError::of_file)?;
-        let assumed = reading.units_warning();
+        let warnings = [reading.units_warning(), reading.phase_warning()];
+        let assumed = warnings.into_iter().flatten().collect();
         let set = reading.into_set().map_err(StudyError::of_file)?;
         let [from_hz, to_hz] = lines.range_hz;
         let set = set

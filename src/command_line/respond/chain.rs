@@ -12,7 +12,7 @@ use bolted_joint::study::StudyText;
 use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
 use super::super::error::CliError;
-use super::super::output::{CSV, Ending, Wrote, check_outputs, print, warn, write_file};
+use super::super::output::{CSV, Ending, Wrote, check_outputs, print, tell_link, warn, write_file};
 use super::picture::{Picture, also};
 use super::{Format, RespondArguments, RespondNoise, format, output, pollution};
 
@@ -68,6 +68,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         Format::Universal => {
             let description = format!("computed, not measured: {}", study.name);
             write_uff58(&measured, output, &description)?;
+            tell_link(output);
         }
     }
     if let Some((path, drawing)) = &drawing {

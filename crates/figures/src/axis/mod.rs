@@ -253,6 +253,35 @@ mod tests {
     }
 
     #[test]
+    fn every_axis_has_two_labels_at_least() {
+        let coherence = Axis::Linear {
+            low: 0.951,
+            high: 1.0,
+        };
+        assert_eq!(labels(&coherence.ticks(2)), ["0.96", "0.98", "1.00"]);
+        for most in 1..8 {
+            for (low, high) in [
+                (0.95, 1.0),
+                (0.951, 1.0),
+                (0.1, 9.9),
+                (-0.4, 0.9),
+                (5.1, 9.9),
+                (9.5e6, 1.05e7),
+            ] {
+                let ticks = Axis::Linear { low, high }.ticks(most);
+                assert!(ticks.major.len() >= 2, "{low} {high} {most}");
+            }
+            for (low, span) in (-9..9).flat_map(|low| (1..30).map(move |span| (low, span))) {
+                let axis = Axis::Logarithmic {
+                    low,
+                    high: low + span,
+                };
+                assert!(axis.ticks(most).major.len() >= 2, "{low} {span} {most}");
+            }
+        }
+    }
+
+    #[test]
     fn phase_has_right_angles() {
         let ticks = Axis::Phase.ticks(5);
         assert_eq!(labels(&ticks), ["−180", "−90", "0", "90", "180"]);

@@ -9,6 +9,9 @@ const PLAIN_EXPONENTS: std::ops::RangeInclusive<i32> = -3..=3;
 const PLAIN_DECIMALS: usize = 4;
 const PLAIN_BELOW: f64 = 1e6;
 
+/// Labels that an axis has at least.
+const FEWEST_LABELS: f64 = 2.0;
+
 /// Text beside a tick.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TickLabel {
@@ -61,8 +64,24 @@ pub(super) fn counted_ticks(count: u32, most: u32) -> Ticks {
     }
 }
 
+/// The number of the step between labels: the shortest that gives `most` of them, but one that gives two at least, since one
+/// alone does not say how far it is to the end of the axis.
+fn labelled_step(low: f64, high: f64, most: u32) -> i32 {
+    let number = series_at_least((high - low) / f64::from(most.max(1)));
+    let labels = |number: &i32| {
+        let step = one_two_five(*number);
+        (high / step + TICK_ROUNDING).floor() - (low / step - TICK_ROUNDING).ceil() + 1.0
+    };
+    // two labels further apart than half of the axis may both miss it; a third and a fifth cannot
+    let finer = (number - 2..=number).rev();
+    finer
+        .into_iter()
+        .find(|number| labels(number) >= FEWEST_LABELS)
+        .unwrap_or(number)
+}
+
 pub(super) fn linear_ticks(low: f64, high: f64, most: u32) -> Ticks {
-    let step_of = |most: u32| series_at_least((high - low) / f64::from(most.max(1)));
+    let step_of = |most: u32| labelled_step(low, high, most);
     let decimals_of = |number: i32| usize::try_from(-number.div_euclid(3)).unwrap_or(0);
     let largest = low.abs().max(high.abs());
     let is_plain = decimals_of(step_of(most)) <= PLAIN_DECIMALS && largest < PLAIN_BELOW;
@@ -115,7 +134,16 @@ pub(super) fn logarithmic_ticks(low: i32, high: i32, most: u32) -> Ticks {
     let plain = PLAIN_EXPONENTS.contains(&first_decade) && PLAIN_EXPONENTS.contains(&last_decade);
     // Up to 1 … 20: the powers of ten alone would be too few.
     let between = high - low <= 4;
-    let stride = (last_decade - first_decade) / most + 1;
+    let inside = |exponent: &i32| (low..=high).contains(&(3 * exponent));
+    let labels = |stride: i32| {
+        let all = (first_decade..=last_decade).filter(inside);
+        all.filter(|exponent| exponent.rem_euclid(stride) == 0)
+            .count()
+    };
+    let mut stride = (last_decade - first_decade) / most + 1;
+    while stride > 1 && labels(stride) < 2 {
+        stride -= 1;
+    }
 
     let mut ticks = Ticks::default();
     for exponent in first_decade..=last_decade {

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::axes::{Counts, named, order};
 use super::matrix::{Functions, Place};
-use super::members::{Members, by_name, quantity};
+use super::members::{Members, quantity};
 use super::{Array, ArrayFile};
-use crate::{FrfError, FrfReading, ReadOptions, TableProblem};
+use crate::{FrfError, FrfReading, Quantity, ReadOptions, TableProblem};
 
 /// Names of frequencies (Hz). Names of two letters or more are the same in capitals.
 const FREQUENCY: &[&str] = &[
@@ -31,6 +31,7 @@ const MATRIX: &[&str] = &[
     "receptance",
     "mobility",
     "accelerance",
+    "inertance",
     "tf",
     "transfer_function",
 ];
@@ -68,6 +69,12 @@ pub(crate) fn functions<F: ArrayFile>(
             path: path.to_owned(),
             problem: Box::new(problem),
         })
+}
+
+/// What a matrix of this name holds; one that was found by being complex may as well be a spectrum of displacements.
+fn of_name(name: &str) -> Option<Quantity> {
+    let is_known = MATRIX.iter().any(|known| known.eq_ignore_ascii_case(name));
+    Quantity::named(name).filter(|_| is_known)
 }
 
 fn functions_of<F: ArrayFile>(
@@ -139,7 +146,7 @@ fn functions_of<F: ArrayFile>(
     let (stated, lines) = match &matrix {
         Some(matrix) => {
             taken.push(("functions", matrix.clone()));
-            let quantity = quantity.or_else(|| by_name(&matrix.to_lowercase()));
+            let quantity = quantity.or_else(|| of_name(matrix));
             let stated = functions.stated(quantity, unit.as_deref())?;
             (
                 stated,

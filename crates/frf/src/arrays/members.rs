@@ -294,16 +294,6 @@ fn one_axis(name: &str, array: &impl Array) -> Result<(), TableProblem> {
 
 pub(super) fn quantity(text: &str) -> Result<Quantity, TableProblem> {
     let expected = "receptance, mobility or accelerance";
-    by_name(&text.to_lowercase())
+    Quantity::named(text)
         .ok_or_else(|| value("quantity", format!("\"{}\"", crate::shown(text)), expected))
-}
-
-pub(super) fn by_name(name: &str) -> Option<Quantity> {
-    [
-        Quantity::Receptance,
-        Quantity::Mobility,
-        Quantity::Accelerance,
-    ]
-    .into_iter()
-    .find(|quantity| quantity.to_string() == name)
 }

@@ -7,16 +7,6 @@ use super::decibel::Decibel;
 use super::header::Keys;
 use crate::{Dof, Quantity, TableProblem};
 
-/// A quantity by its name.
-pub(super) fn quantity(word: &str) -> Option<Quantity> {
-    match word.to_lowercase().as_str() {
-        "receptance" => Some(Quantity::Receptance),
-        "mobility" => Some(Quantity::Mobility),
-        "accelerance" => Some(Quantity::Accelerance),
-        _ => None,
-    }
-}
-
 /// What a column holds of its function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
@@ -72,6 +62,17 @@ pub(super) enum Form {
     Complex(usize),
     /// A coherence alone, in a table of coherences.
     None,
+}
+
+impl Form {
+    /// Where phases in radian stand.
+    pub(super) fn radians_at(self) -> Option<usize> {
+        match self {
+            // the other unit, a degree, is less than a radian
+            Self::Polar { phase, radians, .. } if radians >= 1.0 => Some(phase),
+            _ => None,
+        }
+    }
 }
 
 /// One function of the table.
@@ -133,7 +134,7 @@ impl Column {
         let (response, reference) = (dof(response)?, dof(reference)?);
         let (mut part, mut stated) = (None, None);
         for word in words {
-            match (Part::from_word(word), quantity(word)) {
+            match (Part::from_word(word), Quantity::named(word)) {
                 (Some(found), _) if part.is_none() => part = Some(found),
                 (None, Some(found)) if stated.is_none() => stated = Some(found),
                 _ => return Err(no_name()),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::column::{Column, Columns, Part, quantity, split_unit};
+use super::column::{Column, Columns, Part, split_unit};
 use crate::{Dof, Quantity, TableProblem};
 use bolted_joint_files::Decimal;
 use bolted_joint_files::text_table::{Cells, separator};
@@ -22,13 +22,16 @@ impl Keys {
         let Some((key, value)) = text.split_once(['=', ':']) else {
             return Ok(());
         };
+        // a spreadsheet fills a comment up with empty cells
+        let value = value.trim_end_matches([';', ',', '\t', ' ']);
         let value = value.trim().trim_matches('"');
         let refused =
             |key, expected| TableProblem::whole(format_args!("{key} = \"{value}\""), expected);
         match key.trim().to_lowercase().as_str() {
             "quantity" => {
                 let expected = "receptance, mobility or accelerance";
-                self.quantity = Some(quantity(value).ok_or_else(|| refused("quantity", expected))?);
+                self.quantity =
+                    Some(Quantity::named(value).ok_or_else(|| refused("quantity", expected))?);
             }
             "unit" => self.unit = Some(value.to_owned()),
             "averages" => {
@@ -66,7 +69,7 @@ impl Names {
     pub(super) fn read(row: &str) -> Result<Self, TableProblem> {
         let separator = separator(row);
         let mut cells = Cells::separated_by(separator);
-        let names = cells.of(row);
+        let names = cells.names(row);
         let frequency_unit = frequency_unit(names.first().copied().unwrap_or_default())?;
         let columns = names.iter().enumerate().skip(1);
         Ok(Self {
@@ -92,9 +95,9 @@ impl Names {
 
     /// Takes in the row of units below the names.
     pub(super) fn take_units(&mut self, row: &str) -> Result<(), TableProblem> {
-        let mut cells = Cells::separated_by(self.separator);
-        let units = cells.of(row.trim_end_matches(['\n', '\r']));
         let expected = self.columns.len() + 1;
+        let mut cells = Cells::separated_by(self.separator).of_columns(expected);
+        let units = cells.of(row.trim_end_matches(['\n', '\r']));
         if units.len() != expected {
             return Err(TableProblem::whole(
                 format_args!("a row of {} units", units.len()),

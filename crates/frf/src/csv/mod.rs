@@ -7,6 +7,7 @@ mod column;
 mod decibel;
 mod header;
 mod number;
+mod phase;
 mod read;
 mod row;
 

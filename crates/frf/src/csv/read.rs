@@ -1,15 +1,16 @@
 //! A table from its first line to its last, one line at a time.
 
 use std::collections::BTreeSet;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
 use bolted_joint_files::Decimal;
-use bolted_joint_files::text_table::Cells;
+use bolted_joint_files::text_table::{Cells, is_blank, is_for_excel};
 use num_complex::Complex64;
 
 use super::column::{Columns, Form};
 use super::header::{Header, Keys, Names};
+use super::phase::Phases;
 use super::row::Row;
 use crate::gathered::Gathered;
 use crate::read::opened;
@@ -63,6 +64,7 @@ pub fn read_csv_from(
         path,
         number: 0,
         line: Vec::new(),
+        after_cr: false,
         held: false,
     };
     let mut keys = Keys::default();
@@ -75,7 +77,8 @@ pub fn read_csv_from(
         }
         let text = rows.text();
         match text.trim() {
-            "" => {}
+            blank if is_blank(blank) => {}
+            first if rows.number == 1 && is_for_excel(first) => {}
             comment if comment.starts_with('#') => {
                 keys.read(comment)
                     .map_err(|problem| rows.problem(problem))?;
@@ -121,6 +124,7 @@ pub fn read_csv_from(
             columns,
             stated,
             lines: Gathered::default(),
+            phases: Phases::default(),
             coherence: Gathered::default(),
         });
     }
@@ -139,9 +143,18 @@ pub fn read_csv_from(
         columns,
         stated,
         lines,
+        phases,
         coherence,
     } in wanted
     {
+        let place = columns.form.radians_at();
+        if let Some((line, problem)) = place.and_then(|place| phases.degrees(place + 1)) {
+            return Err(FrfError::Csv {
+                path: path.to_owned(),
+                line,
+                problem: Box::new(problem),
+            });
+        }
         let pair = (columns.response, columns.reference);
         if let Some(stated) = stated {
             functions.push(
@@ -180,6 +193,8 @@ struct Wanted<'header> {
     /// Nothing for a coherence alone.
     stated: Option<Stated>,
     lines: Gathered,
+    /// Phases in radian.
+    phases: Phases,
     coherence: Gathered,
 }
 
@@ -189,6 +204,8 @@ struct Rows<'path, R> {
     path: &'path Path,
     number: usize,
     line: Vec<u8>,
+    /// Whether the current line ended in CR, behind which LF is no line of its own.
+    after_cr: bool,
     /// Whether the current line is still to be read as numbers.
     held: bool,
 }
@@ -201,7 +218,7 @@ impl<R: BufRead> Rows<'_, R> {
         }
         while self.advance()? {
             let text = self.text();
-            if !text.trim().is_empty() && !text.starts_with('#') {
+            if !is_blank(&text) && !text.starts_with('#') {
                 return Ok(true);
             }
         }
@@ -211,13 +228,10 @@ impl<R: BufRead> Rows<'_, R> {
     fn advance(&mut self) -> Result<bool, FrfError> {
         self.line.clear();
         self.number += 1;
-        let read = (&mut self.reader)
-            .take(LONGEST_LINE as u64 + 1)
-            .read_until(b'\n', &mut self.line)
-            .map_err(|source| FrfError::Read {
-                path: self.path.to_owned(),
-                source,
-            })?;
+        let read = self.read_line().map_err(|source| FrfError::Read {
+            path: self.path.to_owned(),
+            source,
+        })?;
         if self.line.len() > LONGEST_LINE {
             return Err(self.problem(TableProblem::whole(
                 format_args!("a line of more than {LONGEST_LINE} bytes"),
@@ -233,7 +247,38 @@ impl<R: BufRead> Rows<'_, R> {
                 self.line.drain(..3);
             }
         }
-        Ok(read > 0)
+        Ok(read)
+    }
+
+    /// Appends bytes up to LF, CR LF, or CR alone, as Excel for the Macintosh ends lines, or until they are more than a table has in
+    /// a line; whether there was anything.
+    fn read_line(&mut self) -> io::Result<bool> {
+        let mut is_any = false;
+        loop {
+            let bytes = match self.reader.fill_buf() {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                bytes => bytes?,
+            };
+            let Some(&first) = bytes.first() else {
+                return Ok(is_any);
+            };
+            // the line before ended in CR, and this LF belongs to it
+            if std::mem::take(&mut self.after_cr) && first == b'\n' {
+                self.reader.consume(1);
+                continue;
+            }
+            is_any = true;
+            let end = bytes.iter().position(|byte| [b'\n', b'\r'].contains(byte));
+            let room = (LONGEST_LINE + 1).saturating_sub(self.line.len());
+            let taken = end.map_or(bytes.len(), |end| end + 1).min(room);
+            self.line.extend_from_slice(&bytes[..taken]);
+            self.after_cr = bytes[taken - 1] == b'\r';
+            let is_whole = end.is_some_and(|end| taken == end + 1);
+            self.reader.consume(taken);
+            if is_whole || taken == room {
+                return Ok(true);
+            }
+        }
     }
 
     /// The current line: UTF-8 where it is valid, Latin-1 where it is not.
@@ -259,7 +304,7 @@ impl<R: BufRead> Rows<'_, R> {
         options: &ReadOptions,
     ) -> Result<(), FrfError> {
         let mut decimal = Decimal::beside(header.separator);
-        let mut tokeniser = Cells::separated_by(header.separator);
+        let mut tokeniser = Cells::separated_by(header.separator).of_columns(header.column_count);
         let mut before_hz = None;
         while self.advance_to_cells()? {
             let text = self.text();
@@ -297,6 +342,10 @@ impl<R: BufRead> Rows<'_, R> {
                         "a finite number; remove the line from the measurement",
                     )));
                 }
+                if let Some(place) = function.columns.form.radians_at() {
+                    let phase = row.real(place).map_err(|problem| self.problem(problem))?;
+                    function.phases.push(phase, self.number);
+                }
                 function.lines.push(&options.selection, hz, value);
                 if let Some(column) = function.columns.coherence {
                     let found = row.real(column).map_err(|problem| self.problem(problem))?;
@@ -308,5 +357,55 @@ impl<R: BufRead> Rows<'_, R> {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NAMES: &str = "frequency [Hz];1:+Y/1:+Y accelerance real [m/s^2/N];1:+Y/1:+Y imaginary";
+
+    /// First and last frequency and value of what is written so, by the only function.
+    fn read(text: &str) -> Result<(usize, Complex64), String> {
+        let reading = read_csv_from(text.as_bytes(), "t.csv", &ReadOptions::default());
+        let reading = reading.map_err(|refused| refused.to_string())?;
+        let own = &reading.functions()[0];
+        Ok((own.receptance().len(), own.receptance()[0]))
+    }
+
+    #[test]
+    fn what_spreadsheets_add_to_a_table_is_passed_over() {
+        let plain = read(&format!("{NAMES}\n5;1,5;0,25\n6;1,6;0,26\n")).unwrap();
+        assert_eq!(plain.0, 2);
+        for text in [
+            format!("sep=;\n{NAMES}\n5;1,5;0,25\n6;1,6;0,26\n"),
+            format!("{NAMES}\n5;1,5;0,25\n6;1,6;0,26\n;;\n;;\n"),
+            format!(";;\n{NAMES}\n5;1,5;0,25;;\n;;\n6;1,6;0,26\n"),
+            format!("{NAMES};\n5;1,5;0,25;\n6;1,6;0,26;\n"),
+            format!("{NAMES};\nHz;m/s^2/N;;\n5;1,5;0,25;\n6;1,6;0,26;\n"),
+            format!("{NAMES}\r5;1,5;0,25\r6;1,6;0,26\r"),
+            format!("{NAMES}\r\n5;1,5;0,25\r\n6;1,6;0,26"),
+            format!("# averages = 10;;\n{NAMES}\r\r\n5;1,5;0,25\r\r\n6;1,6;0,26"),
+        ] {
+            assert_eq!(read(&text), Ok(plain), "{text:?}");
+        }
+        for (text, refused) in [
+            (
+                format!("{NAMES}\n5;1,5;0,25;7\n"),
+                "line 2: found 4 fields, expected 3",
+            ),
+            (
+                format!("{NAMES}\r5;1,5;0,25\r6;x;0,26\r"),
+                "line 3: column 2: found \"x\"",
+            ),
+            (
+                format!("{NAMES}\r\n5;1,5;0,25\r\n6;x;0,26\r\n"),
+                "line 3: column 2: found \"x\"",
+            ),
+        ] {
+            let found = read(&text).unwrap_err();
+            assert!(found.contains(refused), "{found}");
+        }
     }
 }

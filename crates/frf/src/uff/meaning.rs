@@ -156,18 +156,7 @@ fn quantity_of_axis_label(label: &str) -> Result<Option<Statement>, InRecord> {
         let stated_by = format!("the label \"{label}\" in record 9");
         return Err((9, UffProblem::Inverse { found, stated_by }));
     }
-    let means = [
-        (
-            Quantity::Receptance,
-            ["receptance", "compliance", "displacement"].as_slice(),
-        ),
-        (Quantity::Mobility, &["mobility", "velocity"]),
-        (
-            Quantity::Accelerance,
-            &["accelerance", "inertance", "acceleration"],
-        ),
-    ];
-    let mut named = means
+    let mut named = Quantity::WORDS
         .iter()
         .filter(|(_, words)| words.iter().any(|word| lower.contains(word)))
         .map(|(quantity, _)| *quantity);

@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use bolted_joint_files::inputs;
+use bolted_joint_files::whole_file::followed;
 use num_complex::Complex64;
 
 use super::ByteOrder;
@@ -55,15 +56,20 @@ pub fn write_uff58b(
     })
 }
 
-/// Writes a file beside its place and moves it there when it is complete.
+/// Writes a file beside its place and moves it there when it is complete. A symbolic link keeps pointing where it did.
 fn whole_file(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), FrfError> {
-    let mut temporary = path.as_os_str().to_owned();
+    let failed = |source| FrfError::Write {
+        path: path.to_owned(),
+        source,
+    };
+    let target = followed(path).map_err(failed)?;
+    let mut temporary = target.clone().into_os_string();
     temporary.push(format!(".{}.part", std::process::id()));
     let temporary = Path::new(&temporary);
-    let written = inputs::check(path)
+    let written = inputs::check(&target)
         .and_then(|()| File::create(temporary))
         .and_then(|file| {
             let mut writer = BufWriter::new(file);
@@ -73,14 +79,11 @@ fn whole_file(
                 .map_err(io::IntoInnerError::into_error)?
                 .sync_all()
         })
-        .and_then(|()| fs::rename(temporary, path));
+        .and_then(|()| fs::rename(temporary, &target));
     written.map_err(|source| {
         // Best effort: the cause of the failure matters more than the left-over file.
         let _ = fs::remove_file(temporary);
-        FrfError::Write {
-            path: path.to_owned(),
-            source,
-        }
+        failed(source)
     })
 }
 

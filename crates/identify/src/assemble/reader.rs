@@ -59,6 +59,7 @@ impl Reader<'_> {
             reading = reading.with_coherences_of(self.one(path, &options)?)?;
         }
         self.warnings.extend(reading.units_warning());
+        self.warnings.extend(reading.phase_warning());
         if !reading.coherences.is_empty() && reading.averages().is_none() {
             self.warnings.push(format!(
                 "{}: coherence is not used, since the number of averages is not known; state averages beside frf",

@@ -36,7 +36,7 @@ impl<'p> NumberTable<'p> {
         let mut decimal = Decimal::beside(separator);
         let mut tokeniser = Cells::separated_by(separator);
         let names: Vec<String> = tokeniser
-            .of(header)
+            .names(header)
             .into_iter()
             .map(str::to_owned)
             .collect();

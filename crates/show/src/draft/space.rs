@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use bolted_joint_frf::{Direction, Dof};
 
-use super::{Candidate, frequency, stem};
+use super::{Candidate, ToldBy, frequency, stem};
 use crate::shown::some;
 
 /// Parts that a study has names for.
@@ -34,7 +34,7 @@ fn nodes_with(points: &BTreeSet<Dof>, wanted: &[Direction]) -> Vec<u32> {
     found.map(|(node, _)| node).collect()
 }
 
-pub(super) fn text(parts: &[Candidate], assembly: &Candidate) -> String {
+pub(super) fn text(parts: &[Candidate], assembly: &Candidate, by: ToldBy) -> String {
     let names: Vec<String> = parts.iter().map(stem).collect();
     let is_chain = parts.len() > 2;
     let mut text = format!(
@@ -58,7 +58,8 @@ pub(super) fn text(parts: &[Candidate], assembly: &Candidate) -> String {
     }
     let _ = write!(
         text,
-        "\n[assembly]                            # all parts, bolted together\nfrf = {:?}\n",
+        "\n[assembly]                            # {}\nfrf = {:?}\n",
+        by.comment("all parts, bolted together"),
         assembly.name
     );
     for place in 1..parts.len() {

@@ -98,7 +98,7 @@ impl ChainStudy {
         )
     }
 
-    /// What had to be assumed of the files: units that they do not state.
+    /// What had to be assumed of the files or is missing: units that they do not state, phases.
     #[must_use]
     pub fn assumed(&self) -> &[String] {
         &self.assumed

@@ -74,6 +74,18 @@ WRONG = {
     "a table as a joint": (lambda: Joint.read(CSV), r"table\.csv: found a table .*, expected a joint file"),
     "a study as a joint": (lambda: Joint.read(PLAN), r"study\.toml: found a study of .*, expected a joint"),
     "no file as a joint": (lambda: Joint.read("nowhere.json"), r"nowhere\.json: cannot be read: .* of a joint file"),
+    "most": (lambda: ONE.plot(most="a"), "most: found 'a', expected a whole number from 1 on"),
+    "frequencies": (lambda: Joint.read(M10).dynamic_stiffness("a"), "frequency_hz: found what is no array of numbers"),
+    "from in a plot": (lambda: Joint.read(M10).plot(from_hz="a"), "from_hz: found 'a', expected a finite"),
+    "one node": (lambda: bolted_joint.convert(M10, "nastran", "x", nodes=5), "nodes: found 5, expected two numbers"),
+    "functions to a number": (lambda: ONE.save(5), "path: found an object of type int, expected a path"),
+    "a joint to a number": (lambda: Joint.read(M10).save(5), "path: found an object of type int, expected a path"),
+    "tables": (lambda: bolted_joint.Study(5), "tables: found an object of type int, expected a dictionary"),
+    "tables of a text": (lambda: bolted_joint.Study("a.toml"), "tables: .* str, .*; Study.read reads"),
+    "folder": (lambda: bolted_joint.Study({}, 5), "folder: found an object of type int, expected a path"),
+    "text": (lambda: bolted_joint.Study.parse(5), "text: found an object of type int, expected a text"),
+    "parts": (lambda: bolted_joint.merge(PLAN, 5), "parts: found 5, expected a list of Draws or their files"),
+    "parts of a path": (lambda: bolted_joint.merge(PLAN, "a.json"), "parts: found 'a.json', expected a list of Draws"),
     "nodes": (lambda: bolted_joint.convert(M10, "nastran", "x", nodes=(1, -2)), "nodes: found -2, expected a whole"),
 }
 

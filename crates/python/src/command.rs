@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use bolted_joint::command_line::{self, Answer, Call, Program};
@@ -65,7 +65,7 @@ fn in_threads<T: Send + 'static>(
     let (sender, mut receiver) = mpsc::channel();
     let asker = Asker::new();
     let asked = asker.clone();
-    thread::Builder::new()
+    let worker = thread::Builder::new()
         .name("bolted-joint".to_owned())
         .spawn(move || {
             let result = asked.ask(work).transpose();
@@ -84,10 +84,23 @@ fn in_threads<T: Send + 'static>(
                 py.check_signals().inspect_err(|_| asker.give_up())?
             }
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err(
-                    "bolted-joint has come upon a mistake of its own; its message is on standard error",
-                ));
+                let said = py.detach(move || last_words(worker));
+                return Err(PyRuntimeError::new_err(format!(
+                    "bolted-joint has come upon a mistake of its own ({said}); standard error has where"
+                )));
             }
         }
     }
+}
+
+/// What a thread said that has come upon a mistake: notebooks do not show standard error.
+fn last_words(worker: JoinHandle<()>) -> String {
+    let said = match worker.join() {
+        Ok(()) => None,
+        Err(said) => match said.downcast::<String>() {
+            Ok(said) => Some(*said),
+            Err(said) => said.downcast::<&str>().ok().map(|said| said.to_string()),
+        },
+    };
+    said.unwrap_or_else(|| "it did not say which".to_owned())
 }

@@ -63,6 +63,7 @@ class Draws:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the file of draws."""
+        path_of(path)
         Path(path).write_text(self._text, encoding="utf-8")
 
     def __len__(self) -> int:
@@ -164,6 +165,8 @@ def merge(
     BoltedJointError
         If a part does not belong to the study or to the others, or if draws are there twice or not at all.
     """
+    if not isinstance(parts, Iterable) or isinstance(parts, str | os.PathLike | Draws):
+        raise BoltedJointError(f"parts: found {parts!r}, expected a list of Draws or their files")
     # results tell of the study as it was
     given = settled(study) if isinstance(study, Mapping) else study
     with as_file(given) as (path, shown), tempfile.TemporaryDirectory(prefix="bolted-joint-") as folder:

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._archive import unit
-from ._command import BoltedJointError
+from ._command import BoltedJointError, path_of
 from ._html import table
-from ._values import limit, listed, number, one_of
+from ._values import array_of, limit, listed, number, one_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -226,6 +226,7 @@ class Functions:
             If the path ends otherwise, if there is no function, or if some function between the responses and the
             references was not measured, for which an archive has no word.
         """
+        path_of(path)
         ending = os.path.splitext(path)[1].lower()
         if ending not in (".npz", ".csv"):
             raise BoltedJointError(
@@ -359,7 +360,7 @@ def lines_of(argument: str, frequency_hz: ArrayLike) -> NDArray[np.float64]:
     """
     if np.ma.is_masked(frequency_hz):
         raise BoltedJointError(f"{argument}: found masked entries, expected a number for each line")
-    found = _array(argument, frequency_hz, np.float64)
+    found = array_of(argument, frequency_hz, np.float64)
     if found.ndim != 1:
         raise BoltedJointError(f"{argument}: found an array of shape {found.shape}, expected one axis")
     for line in np.flatnonzero(~(np.isfinite(found) & (found >= 0.0)))[:1]:
@@ -381,23 +382,9 @@ def _index(names: tuple[str, ...], name: str) -> int:
         raise BoltedJointError(f"found {name!r}, expected one of {', '.join(names)}") from None
 
 
-def _array(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:
-    """An array of its own.
-
-    Raises
-    ------
-    BoltedJointError
-        With the argument's name, where values are no numbers or no array.
-    """
-    try:
-        return np.array(values, dtype=kind)
-    except (ValueError, TypeError) as error:
-        raise BoltedJointError(f"{argument}: found what is no array of numbers ({error}), expected one") from error
-
-
 def _unmasked(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:
     """Values in an array of their own, with NaN where they are masked."""
-    found = _array(argument, values, kind)
+    found = array_of(argument, values, kind)
     if isinstance(values, np.ma.MaskedArray):
         found[np.ma.getmaskarray(values)] = np.nan
     return found

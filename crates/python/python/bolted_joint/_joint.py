@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._command import BoltedJointError, path_of, run
 from ._html import table, with_deviation
-from ._values import checked, number, plain, whole, within
+from ._values import array_of, checked, number, plain, whole, within
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -86,8 +86,9 @@ class Joint:
         Raises
         ------
         BoltedJointError
-            With the key of a value that the file has no word for, such as NaN.
+            With the key of a value that the file has no word for, such as NaN; or if the path is none.
         """
+        path_of(path)
         data = checked(plain(self.data), "data")
         Path(path).write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
@@ -219,7 +220,7 @@ class Joint:
         BoltedJointError
             For an array of another shape, or a joint over the preload.
         """
-        omega = 2.0 * np.pi * np.asarray(frequency_hz, dtype=np.float64)
+        omega = 2.0 * np.pi * array_of("frequency_hz", frequency_hz, np.float64)
         if omega.ndim > 1:
             raise BoltedJointError(
                 f"frequency_hz: found an array of shape {omega.shape}, expected a number or an array of one axis"
@@ -300,7 +301,9 @@ class Joint:
             loops = loops_of(self if preload_n_m is None else self.at_preload(preload_n_m))
             if loops is not None:
                 return _plot.response(loops, "load")
-        return _plot.joints([self], 1.0 if from_hz is None else from_hz, to_hz, preload_n_m)
+        first = 1.0 if from_hz is None else number("from_hz", from_hz, 0.0)
+        last = None if to_hz is None else number("to_hz", to_hz, 0.0)
+        return _plot.joints([self], first, last, preload_n_m)
 
     def __repr__(self) -> str:
         over = f"; at preloads of {_listed(self.preloads)} N·m" if self.preloads else ""

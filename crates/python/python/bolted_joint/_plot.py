@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._values import whole
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -34,6 +36,7 @@ def functions(sets: "Mapping[str, Functions]", most: int = MOST) -> "Figure":
     """
     from ._picture import Picture
 
+    most = whole("most", most, 1)
     first = next(iter(sets.values()))
     pairs = _strongest(first, most, list(sets.values())[1:])
     figure = Picture(figsize=(8, 5), layout="constrained")

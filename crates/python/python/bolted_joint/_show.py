@@ -309,7 +309,7 @@ def _joint_file(joint: object, path: Path, argument: str) -> str:
 
 
 def _pair(argument: str, nodes: Sequence[int]) -> str:
-    if len(nodes) != 2:
+    if not isinstance(nodes, Sequence | np.ndarray) or isinstance(nodes, str) or len(nodes) != 2:
         raise BoltedJointError(f"{argument}: found {nodes!r}, expected two numbers: those of sides a and b")
     return ",".join(str(whole(argument, node, 1)) for node in nodes)
 

@@ -46,7 +46,15 @@ class Study(dict[str, Any]):
     folder: Path
 
     def __init__(self, tables: Mapping[str, Any] = {}, folder: str | os.PathLike[str] | None = None):
-        super().__init__(tables)
+        try:
+            super().__init__(tables)
+        except (TypeError, ValueError):
+            found = f"an object of type {type(tables).__name__}"
+            raise BoltedJointError(
+                f"tables: found {found}, expected a dictionary; Study.read reads a file"
+            ) from None
+        if folder is not None:
+            path_of(folder, "folder")
         if folder is None:
             folder = tables.folder if isinstance(tables, Study) else "."
         self.folder = Path(folder).resolve()
@@ -86,6 +94,8 @@ class Study(dict[str, Any]):
     @classmethod
     def parse(cls, text: str, folder: str | os.PathLike[str] = ".") -> "Study":
         """A study from its text (TOML)."""
+        if not isinstance(text, str):
+            raise BoltedJointError(f"text: found an object of type {type(text).__name__}, expected a text (TOML)")
         try:
             return cls(json.loads(native(_native.to_json, text)), folder)
         except ValueError as error:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._command import BoltedJointError
 
@@ -58,6 +59,20 @@ def single(value: Any, place: str) -> Any:
         expected = "a text, a number, true or false, or a list or a dictionary of these"
         raise BoltedJointError(f"{place}: found an object of type {type(value).__name__}, expected {expected}")
     return value
+
+
+def array_of(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:
+    """An array of its own.
+
+    Raises
+    ------
+    BoltedJointError
+        With the argument's name, where values are no numbers or no array.
+    """
+    try:
+        return np.array(values, dtype=kind)
+    except (ValueError, TypeError) as error:
+        raise BoltedJointError(f"{argument}: found what is no array of numbers ({error}), expected one") from error
 
 
 def whole(argument: str, value: Any, least: int) -> int:

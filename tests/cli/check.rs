@@ -226,3 +226,21 @@ fn what_no_validator_sees_is_found() {
     let expected = ["found member \"b.G\"", "found icon \"flange_a\""];
     has(&outcome.stderr, &expected);
 }
+
+#[test]
+fn an_assembly_without_joints_is_checked() {
+    let bench = Bench::new();
+    let beam = "length = 0.3, width = 0.03, height = 0.006, youngs_modulus = 70e9, density = 2700, damping_ratio = 0.005";
+    bench.write(
+        "apart.toml",
+        format!(
+            "name = \"apart\"\n[structures.one]\nbeam = {{ {beam}, boundary = \"fixed-free\" }}\npoints = {{ \"1:+Y\" = 0.3 }}\n\
+             modes = 4\n[inputs]\npush = \"one/1:+Y\"\n[outputs]\ntip = \"one/1:+Y\"\n[response]\nkind = \"modes\"\n"
+        ),
+    );
+    let outcome = bench.done("check apart.toml");
+    has(
+        &outcome.stdout,
+        &["joints: none", "there is no joint to couple"],
+    );
+}

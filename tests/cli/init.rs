@@ -235,3 +235,41 @@ fn a_folder_without_measurements_is_said_to_be_one() {
         &["missing: cannot be read", "give the folder"],
     );
 }
+
+#[test]
+fn a_file_called_by_both_parts_is_the_assembly() {
+    let bench = Bench::new();
+    let few = table("1:+Y", "1:+Y");
+    bench.write("a.csv", &few);
+    bench.write("ab.csv", &few);
+    bench.write("b.csv", table("11:+Y 12:+Y 13:+Y", "11:+Y 12:+Y"));
+    has(
+        &bench.done("init").stdout,
+        &["part a is taken to be a.csv, part b b.csv, the assembly ab.csv"],
+    );
+    assert!(!bench.text("study.toml").contains("Guessed"));
+    let other = Bench::new();
+    for name in ["one.csv", "three.csv", "two.csv"] {
+        other.write(name, &few);
+    }
+    has(
+        &other.done("init").stdout,
+        &["guessed by the order of their names"],
+    );
+    has(
+        &other.text("study.toml"),
+        &["CHECK: both, bolted together? Guessed"],
+    );
+    // magnitudes alone
+    other.write("two.csv", few.replace("-1e-8", "0"));
+    has(
+        &other.done("init -o next.toml").stdout,
+        &[
+            "two.csv: no function has an imaginary part",
+            "magnitudes alone?",
+        ],
+    );
+    let shown = other.done("show two.csv");
+    has(&shown.stdout, &["without a phase nothing tells"]);
+    has(&shown.stderr, &["magnitudes alone?"]);
+}

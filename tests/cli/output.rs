@@ -240,6 +240,55 @@ fn a_read_only_file_is_not_replaced_and_a_link_is_told() {
         &["link.json is a link and stays one: o.joint.json is written"],
     );
     assert_ne!(bench.text("o.joint.json"), "kept");
+    // also one that leads to no file yet
+    std::os::unix::fs::symlink("new.json", bench.path("to.json")).unwrap();
+    let outcome = bench.done(&format!("{IDENTIFY} to.json"));
+    has(
+        &outcome.stderr,
+        &["to.json is a link and stays one: new.json is written"],
+    );
+    assert!(
+        fs::symlink_metadata(bench.path("to.json"))
+            .unwrap()
+            .is_symlink()
+    );
+    assert!(bench.path("new.json").is_file());
+    // nothing is told of one that is not written
+    std::os::unix::fs::symlink("study.toml", bench.path("input.json")).unwrap();
+    let refused = bench.run(&format!("{IDENTIFY} input.json"));
+    assert!(
+        refused.code == Some(1) && !refused.stderr.contains("is written"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_told_from_an_empty_file() {
+    let bench = bench();
+    for command in [
+        "show",
+        "check",
+        "compare j.joint.json",
+        "export -o o.fmu",
+        "convert --to nastran -o o.bdf",
+        "identify -o o.json",
+    ] {
+        let mut words = command.split_whitespace();
+        let name = words.next().unwrap_or_default();
+        let mut run = bench.command(&format!("{name} /dev/stdin"));
+        run.args(words).stdin(fs::File::open("/dev/null").unwrap());
+        let refused = Outcome::of(run.output().unwrap());
+        assert_eq!(refused.code, Some(1), "{command}: {}", refused.stderr);
+        has(
+            &refused.stderr,
+            &[
+                "/dev/stdin: found a pipe or a device",
+                "save it as a file first",
+            ],
+        );
+    }
 }
 
 #[test]

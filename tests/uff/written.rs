@@ -168,3 +168,20 @@ proptest! {
         assert_same(&set, 1e-9);
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_one_and_its_target_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let (link, target) = (
+        folder.path().join("link.uff"),
+        folder.path().join("target.uff"),
+    );
+    std::os::unix::fs::symlink("target.uff", &link).unwrap();
+    // at first the target does not exist
+    for _ in 0..2 {
+        write_uff58(&set_over(&[1.0, 1.5]), &link, "linked").unwrap();
+        assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert!(std::fs::symlink_metadata(&target).unwrap().is_file());
+    }
+}

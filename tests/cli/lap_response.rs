@@ -90,8 +90,13 @@ fn how_decays_are_fitted_is_said() {
         ),
         (
             "band = [50, 170]\n",
-            "not sample by sample: `band` says that decay has other modes.",
-            "decays as they are read (`band` says",
+            "Decays are fitted sample by sample.",
+            "decays sample by sample",
+        ),
+        (
+            "[noise]\nfrequency = 1e-4\ndamping = 0.01\n",
+            "not sample by sample: [noise] states errors of frequencies and damping ratios",
+            "decays as they are read ([noise] states",
         ),
     ] {
         bench.write("study.toml", study("", &format!("{decay}{more}")));

@@ -92,7 +92,7 @@ fn ratios_that_may_be_per_cent_are_told() {
         let found = LapResponse::of(&study, &|| {}).unwrap();
         found.warnings(&study).join("\n")
     };
-    let says = "run.csv: damping ratios up to 0.47";
+    let says = "run: damping ratios up to 0.47";
     has(
         &told(100.0),
         &[says, "if they are per cent, divide them by 100"],

@@ -21,16 +21,21 @@ const SMALLEST: f64 = 0.25;
 pub fn without_phase<'a>(
     functions: impl IntoIterator<Item = &'a [Complex64]>,
 ) -> Option<&'static str> {
-    let values = functions.into_iter().flatten();
-    let values: Vec<Complex64> = values.filter(|h| h.norm() > 0.0).copied().collect();
-    let first = values.first()?;
-    let all = |is_so: &dyn Fn(&Complex64) -> bool| values.iter().all(is_so);
-    // magnitudes of mobilities are receptances along −j
-    let are_real = all(&|h| h.im == 0.0);
-    if values.len() < FEWEST || !are_real && !all(&|h| h.re == 0.0 && h.im < 0.0) {
+    let (mut count, mut first) = (0, None);
+    let (mut are_real, mut are_behind, mut have_one_sign) = (true, true, true);
+    for h in functions.into_iter().flatten().filter(|h| h.norm() > 0.0) {
+        count += 1;
+        are_real &= h.im == 0.0;
+        // magnitudes of mobilities are receptances along −j
+        are_behind &= h.re == 0.0 && h.im < 0.0;
+        have_one_sign &= h.re * *first.get_or_insert(h.re) >= 0.0;
+        if !are_real && !are_behind {
+            return None;
+        }
+    }
+    if count < FEWEST {
         return None;
     }
-    let have_one_sign = all(&|h| h.re * first.re >= 0.0);
     Some(match have_one_sign {
         true => {
             "no function has an imaginary part as measured, and all have one sign: magnitudes alone? Save complex numbers, or phases \

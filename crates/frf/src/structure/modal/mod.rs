@@ -71,7 +71,7 @@ const LARGE_RATIO: f64 = 0.2;
 pub fn large_damping_ratio(largest: f64) -> Option<String> {
     (LARGE_RATIO..1.0).contains(&largest).then(|| {
         format!(
-            "damping ratios up to {largest} are taken as parts of the critical damping, {:.0} %: if they are per cent, divide them by 100",
+            "damping ratios up to {largest:.2} are taken as parts of the critical damping, {:.0} %: if they are per cent, divide them by 100",
             100.0 * largest
         )
     })

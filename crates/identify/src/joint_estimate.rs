@@ -20,7 +20,10 @@ use super::uncertainty::{self, Covariance};
 use super::unknown::Unknown;
 
 /// A standard deviation beyond this fraction of the value makes the value unreliable.
-const UNRELIABLE: f64 = 0.5;
+pub(super) const UNRELIABLE: f64 = 0.5;
+/// The same of a direct stiffness of several joints, which is then within two and a half deviations of none: where one is known so
+/// badly, no straight line leads from it to the others, and their deviations do not hold.
+pub(super) const UNRELIABLE_OF_SEVERAL: f64 = 0.4;
 
 /// The estimate of the joint at one torque, or of the one that all assemblies have in common: of one bolt, of several that are
 /// alike, or of each of several.
@@ -148,9 +151,8 @@ impl JointEstimate {
             .unwrap_or_default()
     }
 
-    /// The stiffnesses on the diagonal that are not known to half of their size, joint by joint: of several joints any, as the
-    /// others' numbers hang on it, but for one that is known to have no effect; and of a single one those of which none is known
-    /// better.
+    /// The stiffnesses on the diagonal that are hardly known, joint by joint: of several joints any, as the others' numbers hang on
+    /// it, but for one that is known to have no effect; and of a single one those of which none is known to half of its size.
     pub(super) fn hardly_determined(&self) -> Vec<&Unknown> {
         let covariance = &self.covariance;
         let deviations = covariance.standard_deviation();
@@ -160,12 +162,11 @@ impl JointEstimate {
         let is_open = |index: &usize| {
             let unknown = &covariance.unknowns[*index];
             let size = unknown.value(&self.free[unknown.joint]).abs();
-            let least = if are_several {
-                covariance.negligible[*index]
-            } else {
-                0.0
+            let (part, least) = match are_several {
+                true => (UNRELIABLE_OF_SEVERAL, covariance.negligible[*index]),
+                false => (UNRELIABLE, 0.0),
             };
-            deviations[*index] > UNRELIABLE * size.max(least)
+            deviations[*index] > part * size.max(least)
         };
         let open: Vec<usize> = direct.iter().copied().filter(is_open).collect();
         match are_several || open.len() == direct.len() {

@@ -6,7 +6,7 @@ use bolted_joint_study::overstated_noise;
 
 use super::assessment::Assessment;
 use super::identification::{AssemblyFit, Identification};
-use super::joint_estimate::JointEstimate;
+use super::joint_estimate::{JointEstimate, UNRELIABLE, UNRELIABLE_OF_SEVERAL};
 use super::layout::Bolts;
 use super::lines_estimate::LinesEstimate;
 use super::model::JointModel;
@@ -98,13 +98,19 @@ pub(super) fn reasons_against(
             let hardly: Vec<String> = hardly.map(|unknown| unknown.label(names)).collect();
             if !hardly.is_empty() {
                 reasons.push(format!(
-                    "the data hardly determine {}{}: {} more than half of the value",
+                    "the data hardly determine {}{}: {} more than {:.0} % of the value",
                     hardly.join(" and "),
                     joint.place(),
                     match hardly.len() {
                         1 => "its deviation is",
                         _ => "their deviations are",
-                    }
+                    },
+                    100.0
+                        * if joint.free.len() > 1 {
+                            UNRELIABLE_OF_SEVERAL
+                        } else {
+                            UNRELIABLE
+                        }
                 ));
             }
         }

@@ -53,7 +53,8 @@ def test_they_hold_with_the_error_budget_and_without_rotation(program, tmp_path)
 def test_bolts_that_are_hardly_determined_with_the_budget_are_refused(program, tmp_path):
     _, whole = bolted.near(program, tmp_path, 4, 2, 0.035, budget=None)
     assert not whole["usable"]
-    assert any("the data hardly determine b2 k_yy" in reason for reason in whole["reasons_against"]), whole["reasons_against"]
+    reasons = [reason for reason in whole["reasons_against"] if reason.startswith("the data hardly determine b")]
+    assert any("b2 k_yy" in reason for reason in reasons), whole["reasons_against"]
 
 
 def test_bolts_that_noise_does_not_tell_apart_are_refused_with_the_reason(program, tmp_path):

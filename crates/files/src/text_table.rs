@@ -11,7 +11,7 @@ pub fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let text = text.trim_start_matches('\u{feff}');
     (1..).zip(lines(text)).filter(|(number, line)| {
         let is_other = is_blank(line) || line.trim_start().starts_with('#');
-        !is_other && !(*number == 1 && is_for_excel(line))
+        !(is_other || *number == 1 && is_for_excel(line))
     })
 }
 

@@ -254,7 +254,7 @@ impl<'c> Case<'c> {
         let reduced = self.plain.reduced_chi_squared.filter(|own| *own > 0.0)?;
         let freedom = squares / reduced;
         let most = squares - freedom + BEYOND_CHANCE * (2.0 * freedom).sqrt();
-        (score.drop < most).then(|| Suspect {
+        (score.drop < most).then_some(Suspect {
             cause: score.cause,
             value: score.value,
             standard_deviation: score.standard_deviation,

@@ -108,7 +108,8 @@ pub struct Change {
 
 /// Computes a structure anew.
 pub trait Compute: Sync {
-    /// The structure with a change; `None` where that is impossible, such as a modulus or a damping below zero. A point may be beyond its end.
+    /// The structure with a change; `None` where that is impossible, such as a modulus or a damping below zero. A point may be
+    /// beyond its end.
     fn changed(&self, change: &Change) -> Option<Box<dyn Computation + '_>>;
 }
 

@@ -250,3 +250,57 @@ pub(crate) fn value_of(cause: Cause, priors: &[Prior], values: &[f64]) -> f64 {
     let found = priors.iter().position(|prior| prior.cause == cause);
     found.map_or(0.0, |index| values[index])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::{Entry, JointShape, MeasuredFunctions};
+
+    /// A rotation by a central difference of three points, whose spacing is not what it is said to be: θ = (y₃ − y₁)/2s.
+    #[test]
+    fn a_spacing_scales_what_is_divided_by_it() {
+        let joint = JointShape {
+            dofs: 2,
+            dofs_of_a_bolt: 2,
+            entries: vec![vec![(0, 0)], vec![(0, 1)], vec![(1, 1)]],
+        };
+        let places: Vec<_> = (0..3).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
+        let entry = |&place: &(usize, usize)| Entry {
+            place,
+            measurements: vec![place],
+            values: Vec::new(),
+            variance: Vec::new(),
+        };
+        let functions = || MeasuredFunctions {
+            is_translation: vec![true; 3],
+            positions_m: Vec::new(),
+            entries: places.iter().map(entry).collect(),
+        };
+        let labelled: Vec<Complex64> = (1..=6)
+            .map(|n| Complex64::new(f64::from(n * n), -0.3 * f64::from(n)))
+            .collect();
+        let of_spacing = |spacing_m: f64| {
+            let by = 0.5 / spacing_m;
+            let rows = DMatrix::from_row_slice(2, 3, &[0.0, 1.0, 0.0, -by, 0.0, by]);
+            Measured::new(functions(), rows, None, Some(30.0), &joint)
+        };
+        let stated = of_spacing(0.015);
+        assert_eq!(stated.differences, [1]);
+        let cause = Cause::DifferenceSpacing(Side::A);
+        let priors = [Prior {
+            cause,
+            standard_deviation: 0.01,
+            centre: 0.0,
+        }];
+        let formed = |value: f64| stated.formed(2, Side::A, (&labelled, 100.0), &priors, &[value]);
+        // points that lie 2 % nearer to each other than they are said to have rotated 2 % more
+        let (own, nearer) = (
+            formed(0.02),
+            of_spacing(0.015 / 1.02).as_measured(&labelled),
+        );
+        assert!((&own - nearer).norm() < 1e-12 * own.norm());
+        let slope = stated.formed_by_cause(2, Side::A, (&own, 100.0), (cause, 0.02));
+        let expected = (formed(0.021) - formed(0.019)) / Complex64::from(2e-3);
+        assert!((slope.unwrap() - &expected).norm() < 1e-9 * expected.norm());
+    }
+}

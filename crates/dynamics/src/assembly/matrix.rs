@@ -189,22 +189,20 @@ impl Matrix {
     /// Adds Aᵀ x to `sum`, row by row; what is zero costs nothing.
     #[inline]
     pub(super) fn add_rows_to(&self, x: &[f64], sum: &mut [f64]) {
-        let mut terms = x.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
-        loop {
-            let next: [_; BLOCK] = std::array::from_fn(|_| terms.next());
-            let mut block = [(0.0, &[][..]); BLOCK];
-            let mut count = 0;
-            for (i, &factor) in next.into_iter().flatten() {
+        let mut block = [(0.0, &[][..]); BLOCK];
+        let mut count = 0;
+        for (i, &factor) in x.iter().enumerate() {
+            if factor != 0.0 {
                 block[count] = (factor, self.row(i));
                 count += 1;
             }
-            if count < BLOCK {
-                block[..count]
-                    .iter()
-                    .for_each(|term| add_rows([*term], sum));
-                break;
+            if count == BLOCK {
+                add_rows(block, sum);
+                count = 0;
             }
-            add_rows(block, sum);
+        }
+        for term in &block[..count] {
+            add_rows([*term], sum);
         }
     }
 

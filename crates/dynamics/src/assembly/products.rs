@@ -9,13 +9,12 @@ const LANES: usize = 4;
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let ((a, rest_of_a), (b, rest_of_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let rest: f64 = rest_of_a.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
     for (a, b) in a.iter().zip(b) {
         for lane in 0..LANES {
             sums[lane] += a[lane] * b[lane];
         }
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    total(sums, rest_of_a, rest_of_b)
 }
 
 /// Σ aᵢ xᵢ of several rows a, all of them of the length of x. Each is the same to the bit as by itself.
@@ -26,12 +25,14 @@ pub(super) fn dots<const ROWS: usize>(rows: [&[f64]; ROWS], x: &[f64]) -> [f64; 
         x.as_chunks().0,
     );
     let whole = x.len() - x.len() % LANES;
-    std::array::from_fn(|row| {
-        let [first, second, third, fourth] = sums[row];
-        let rest = rows[row][whole..].iter().zip(&x[whole..]);
-        let rest: f64 = rest.map(|(own, x)| own * x).sum();
-        (first + second) + (third + fourth) + rest
-    })
+    std::array::from_fn(|row| total(sums[row], &rows[row][whole..], &x[whole..]))
+}
+
+/// The lanes' sums, and what is left of two rows beside them.
+#[inline]
+fn total([first, second, third, fourth]: [f64; LANES], a: &[f64], b: &[f64]) -> f64 {
+    let rest: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    (first + second) + (third + fourth) + rest
 }
 
 /// The sums of each row, lane by lane. By itself, so that the lanes are what the compiler does at once, and not the rows.

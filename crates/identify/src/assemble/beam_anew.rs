@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use bolted_joint_frf::Dof;
-use bolted_joint_frf::structure::{Beam, BeamPoint, ComplexMatrix, ModalBeam, Motion};
+use bolted_joint_frf::structure::{Beam, BeamPoint, ComplexMatrix, Damping, ModalBeam, Motion};
 use bolted_joint_systematic::{Change, Computation, Compute};
 
 use super::super::study::Substructure;
@@ -55,6 +55,10 @@ impl<'a> BeamAnew<'a> {
             self.beam.youngs_modulus_pa * (1.0 + change.youngs_modulus),
             self.beam.density_kg_per_m3 * (1.0 + change.density),
         ]
+    }
+
+    fn damping(&self, change: &Change) -> Damping {
+        self.beam.damping.times(1.0 + change.damping)
     }
 
     /// The joint's DOFs and the points where the change puts them.
@@ -149,7 +153,7 @@ impl Compute for BeamAnew<'_> {
         let beam = Beam {
             youngs_modulus_pa,
             density_kg_per_m3,
-            damping: self.beam.damping.times(1.0 + change.damping),
+            damping: self.damping(change),
             ..self.beam.clone()
         };
         let dofs = self.dofs(change)?;
@@ -157,7 +161,6 @@ impl Compute for BeamAnew<'_> {
         Some(Box::new(ChangedBeam {
             of: self,
             modal: beam.modal(&nodes).ok()?,
-            damping: change.damping,
             dofs,
         }))
     }
@@ -167,8 +170,6 @@ impl Compute for BeamAnew<'_> {
 struct ChangedBeam<'a> {
     of: &'a BeamAnew<'a>,
     modal: ModalBeam,
-    /// The change of its damping, relative.
-    damping: f64,
     dofs: Vec<(BeamPoint, f64)>,
 }
 
@@ -181,7 +182,7 @@ impl Computation for ChangedBeam<'_> {
     fn nearby(&self, change: &Change) -> Option<Vec<ComplexMatrix>> {
         let [youngs_modulus_pa, density_kg_per_m3] = self.of.material(change);
         let modal = self.modal.of_material(youngs_modulus_pa, density_kg_per_m3);
-        let modal = modal.damped((1.0 + change.damping) / (1.0 + self.damping));
+        let modal = modal.with_damping(self.of.damping(change));
         self.of.receptances(&modal, &self.of.dofs(change)?)
     }
 }

@@ -94,14 +94,17 @@ def whole(argument: str, value: Any, least: int) -> int:
     return found
 
 
+def _real(value: Any) -> float:
+    """A number of Python or of NumPy; NaN for what is none."""
+    try:
+        return math.nan if isinstance(value, str | bytes | bool) else float(value)
+    except (TypeError, ValueError):
+        return math.nan
+
+
 def number(argument: str, value: Any, least: float = -math.inf) -> float:
     """An argument that is a finite number, `least` or more, of Python or of NumPy; errors as of `whole`."""
-    try:
-        if isinstance(value, str | bytes | bool):
-            raise TypeError
-        found = float(value)
-    except (TypeError, ValueError):
-        found = math.nan
+    found = _real(value)
     if not (math.isfinite(found) and found >= least):
         expected = "a finite number" if least == -math.inf else f"a finite number from {least:g} on"
         raise BoltedJointError(f"{argument}: found {value!r}, expected {expected}")
@@ -112,12 +115,7 @@ def limit(argument: str, value: Any, none: float) -> float:
     """An argument that is an end of a range, which may be infinite; `none` where it is None. Errors as of `whole`."""
     if value is None:
         return none
-    try:
-        if isinstance(value, str | bytes | bool):
-            raise TypeError
-        found = float(value)
-    except (TypeError, ValueError):
-        found = math.nan
+    found = _real(value)
     if math.isnan(found):
         raise BoltedJointError(f"{argument}: found {value!r}, expected a number, or None for no limit")
     return found

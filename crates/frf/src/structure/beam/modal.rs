@@ -83,12 +83,12 @@ impl ModalBeam {
         }
     }
 
-    /// The same beam with so many times its damping.
+    /// The same beam with another damping.
     #[must_use]
-    pub fn damped(&self, factor: f64) -> Self {
+    pub fn with_damping(&self, damping: Damping) -> Self {
         Self {
             beam: Beam {
-                damping: self.beam.damping.times(factor),
+                damping,
                 ..self.beam.clone()
             },
             ..self.clone()

@@ -285,3 +285,27 @@ fn a_point_that_is_almost_at_the_end_leaves_the_frequencies_alone() {
         }
     }
 }
+
+/// At a resonance of a beam that hardly dissipates, twice the damping leaves half of the motion.
+#[test]
+fn a_resonance_falls_as_its_damping_grows() {
+    for damping in [
+        Damping::Ratios(vec![0.0, 0.0, 1e-3]),
+        Damping::LossFactor(2e-3),
+    ] {
+        let beam = Beam {
+            damping: damping.clone(),
+            ..aluminium(Boundary::FreeFree)
+        };
+        let hz = [beam.natural_frequencies_hz().unwrap()[beam.rigid_body_modes()]];
+        let tip = [BeamPoint {
+            position_m: beam.length_m,
+            motion: Motion::Translation,
+        }];
+        let modal = beam.modal(&tip).unwrap();
+        let of = |modal: &ModalBeam| modal.receptances(&tip, &hz).unwrap()[0][(0, 0)].im;
+        let twice = modal.with_damping(damping.times(2.0));
+        let ratio = of(&twice) / of(&modal);
+        assert!((ratio - 0.5).abs() < 1e-5, "{damping:?}: {ratio}");
+    }
+}

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use super::in_time::MOST_STEPS;
 use super::spectrum::Spectrum;
 use super::{Record, Stretches};
 
@@ -30,12 +31,16 @@ pub(in crate::response) struct Other {
 }
 
 /// The other modes of a record, of which the mode in the band makes `own` from sample `from` on: the strongest first, each beside
-/// those before it, until nothing stands out of the noise. `None` where they are too many.
+/// those before it, until nothing stands out of the noise. `None` where they, or the samples, are too many.
 pub(super) fn others(
     record: &Record,
     (band_hz, own_hz): ([f64; 2], f64),
     (from, own): (usize, &[f64]),
 ) -> Option<Vec<Other>> {
+    // what is longer is not fitted sample by sample
+    if record.values.len() > MOST_STEPS {
+        return None;
+    }
     let beyond = record.values.get(from..)?.iter().zip(own);
     let beyond: Vec<f64> = beyond.map(|(value, own)| value - own).collect();
     let times = Times {
@@ -108,14 +113,18 @@ impl Times {
 /// Exponentials with an offset by Gauss's and Newton's steps from these on; `None` where one of them is no decay.
 fn fitted(values: &[f64], times: Times, mut modes: Vec<Other>) -> Option<Vec<Other>> {
     for _ in 0..STEPS {
-        let columns = columns(&modes, times);
-        let own = values.iter().enumerate();
-        let left =
-            own.map(|(n, value)| value - at(&modes, times.first_s + times.interval_s * n as f64));
-        let left = DVector::from_iterator(values.len(), left);
-        let normal = columns.transpose() * &columns;
-        let right = columns.transpose() * left;
-        let size = normal.nrows();
+        let size = 1 + NUMBERS * modes.len();
+        let (mut normal, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        for (value, time_s) in values.iter().zip(times.each()) {
+            let row = row(&modes, times, time_s);
+            let of_mode = |(k, mode): (usize, &Other)| {
+                let first = 1 + NUMBERS * k;
+                row[first] * mode.amplitude.re + row[first + 1] * mode.amplitude.im
+            };
+            let own: f64 = modes.iter().enumerate().map(of_mode).sum();
+            right.axpy(value - own, &row, 1.0);
+            normal.ger(1.0, &row, &row, 1.0);
+        }
         let solved = bolted_joint_singular::solution(normal, &right, f64::MIN_POSITIVE)?;
         if solved.len() != size || !solved.iter().all(|own| own.is_finite()) {
             return None;
@@ -157,21 +166,15 @@ fn at(modes: &[Other], time_s: f64) -> f64 {
         .sum()
 }
 
-/// An offset, and what each mode has with another amplitude and, to first order, with another pole.
-fn columns(modes: &[Other], times: Times) -> DMatrix<f64> {
-    let mut columns = DMatrix::zeros(times.count, 1 + NUMBERS * modes.len());
-    columns.column_mut(0).fill(1.0);
-    for (n, time_s) in times.each().enumerate() {
-        for (k, mode) in modes.iter().enumerate() {
-            let own = (mode.pole * time_s).exp();
-            let part = time_s / times.span_s();
-            let all = [own.re, -own.im, part * own.re, -part * own.im];
-            for (place, value) in all.into_iter().enumerate() {
-                columns[(n, 1 + NUMBERS * k + place)] = value;
-            }
-        }
-    }
-    columns
+/// An offset, and what each mode has at a time with another amplitude and, to first order, with another pole.
+fn row(modes: &[Other], times: Times, time_s: f64) -> DVector<f64> {
+    let part = time_s / times.span_s();
+    let of_modes = modes.iter().flat_map(|mode| {
+        let own = (mode.pole * time_s).exp();
+        [own.re, -own.im, part * own.re, -part * own.im]
+    });
+    let all = std::iter::once(1.0).chain(of_modes);
+    DVector::from_iterator(1 + NUMBERS * modes.len(), all)
 }
 
 /// Samples less what these modes have of them.
@@ -188,7 +191,11 @@ pub(super) fn basis(modes: &[Other], samples: usize, interval_s: f64) -> DMatrix
         interval_s,
         count: samples,
     };
-    columns(modes, times).qr().q()
+    let mut columns = DMatrix::zeros(samples, 1 + NUMBERS * modes.len());
+    for (n, time_s) in times.each().enumerate() {
+        columns.set_row(n, &row(modes, times, time_s).transpose());
+    }
+    columns.qr().q()
 }
 
 #[cfg(test)]

@@ -39,9 +39,7 @@ impl Spectrum {
             .collect();
         Transform::forward(count).apply(&mut values);
         let moduli: Vec<f64> = values[..count / 2].iter().map(|v| v.norm()).collect();
-        let mut sorted = moduli.clone();
-        sorted.sort_by(f64::total_cmp);
-        let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let median = median(&moduli);
         Self {
             step_hz: 1.0 / (count as f64 * record.interval_s),
             moduli,
@@ -80,18 +78,12 @@ impl Spectrum {
         };
         let all = (LOWEST..self.moduli.len()).filter(is_other);
         let highest = all.max_by(|&a, &b| self.moduli[a].total_cmp(&self.moduli[b]))?;
-        (self.moduli[highest] > ABOVE_NOISE * self.median()).then(|| hz(highest))
-    }
-
-    fn median(&self) -> f64 {
-        let mut sorted = self.moduli.clone();
-        sorted.sort_by(f64::total_cmp);
-        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+        (self.moduli[highest] > ABOVE_NOISE * median(&self.moduli)).then(|| hz(highest))
     }
 
     /// Peaks that stand out, the highest first.
     fn peaks(&self, range: Range<usize>) -> Vec<usize> {
-        let median = self.median();
+        let median = median(&self.moduli);
         let floor = ABOVE_NOISE * median;
         let is_peak = |n: &usize| {
             let own = self.moduli[*n];
@@ -121,6 +113,12 @@ impl Spectrum {
         }
         peaks
     }
+}
+
+fn median(moduli: &[f64]) -> f64 {
+    let mut sorted = moduli.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Whether a frequency is a multiple of the mode's own.

@@ -30,7 +30,7 @@ pub(in crate::response) use self::rows::Rows;
 pub use self::whiteness::Coloured;
 
 /// Steps of a motion at most.
-const MOST_STEPS: usize = 400_000;
+pub(super) const MOST_STEPS: usize = 400_000;
 /// Motions of a search at most, and steps of them.
 const MOST_MOTIONS: usize = 1000;
 const MOST_WORK: usize = 50_000_000;
@@ -142,6 +142,9 @@ pub(in crate::response) fn fitted(
     let mut alone = Vec::with_capacity(runs.len());
     for run in runs {
         let record = run.recorded.as_deref().ok_or(NotInTime::OtherData)?;
+        if record.values.len() > MOST_STEPS {
+            return Err(NotInTime::TooLong(run.name.clone(), record.values.len()));
+        }
         let own = record.alone();
         alone.push((*run, own.ok_or_else(|| NotInTime::Band(run.name.clone()))?));
     }

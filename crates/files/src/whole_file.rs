@@ -11,7 +11,8 @@ const MOST_LINKS: usize = 40;
 
 /// Writes `contents` to `path` through a temporary file in the same folder that is renamed at the end.
 ///
-/// A symbolic link keeps pointing where it did, also one to a file that does not exist yet. What is no regular file (a pipe, `/dev/stdout`) is written to directly.
+/// A symbolic link keeps pointing where it did, also one to a file that does not exist yet. What is no regular file (a pipe,
+/// `/dev/stdout`) is written to directly.
 ///
 /// # Errors
 ///

@@ -18,9 +18,12 @@ mod mode;
 mod models;
 mod pace;
 mod preload_table;
+mod processor;
 mod refusal;
 mod resources;
 mod start_file;
 mod underway;
 mod values;
 mod version;
+
+pub use processor::use_all_of_it;

@@ -108,18 +108,9 @@ pub struct Change {
 
 /// Computes a structure anew.
 pub trait Compute: Sync {
-    /// The structure with a change; `None` where that is impossible, such as a modulus or a damping below zero. A point may be
-    /// beyond its end.
-    fn changed(&self, change: &Change) -> Option<Box<dyn Computation + '_>>;
-}
-
-/// A structure that is computed for one change.
-pub trait Computation: Sync {
-    /// Receptances at each line, at the joint's DOFs and then the points.
-    fn receptances(&self) -> Option<Vec<ComplexMatrix>>;
-
-    /// The same for a change near by, of which the difference to one as large in the other direction is to be right.
-    fn nearby(&self, change: &Change) -> Option<Vec<ComplexMatrix>>;
+    /// Receptances at each line, at the joint's DOFs and then the points, of the structure with a change; smooth in it. `None` where
+    /// that is impossible, such as a modulus or a damping below zero. A point may be beyond its end.
+    fn receptances(&self, change: &Change) -> Option<Vec<ComplexMatrix>>;
 }
 
 /// A structure computed from dimensions and material.

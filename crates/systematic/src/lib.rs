@@ -45,7 +45,7 @@ pub use estimate::{
     CONTRADICTED, CauseEstimate, Estimate, FAR, Settings, Start, estimate, estimate_near, evaluated,
 };
 pub use experiment::{
-    Assembly, Change, ComplexMatrix, Computation, Compute, Computed, Entry, Experiment, JointShape,
+    Assembly, Change, ComplexMatrix, Compute, Computed, Entry, Experiment, JointShape,
     MeasuredFunctions, Structure,
 };
 pub use measured::{Measured, Places};

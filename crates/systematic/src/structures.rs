@@ -47,7 +47,7 @@ impl Recomputations {
         Self::each(experiment, |computed, side| {
             let change = change(experiment, side, priors, values);
             Some(Recomputed {
-                receptances: computed.compute.changed(&change)?.receptances()?,
+                receptances: computed.compute.receptances(&change)?,
                 by_cause: Vec::new(),
             })
         })
@@ -83,8 +83,7 @@ fn recomputed(
     values: &[f64],
 ) -> Option<Recomputed> {
     let change = change(experiment, side, priors, values);
-    let computation = computed.compute.changed(&change)?;
-    let receptances = computation.receptances()?;
+    let receptances = computed.compute.receptances(&change)?;
     let derivative = |(number, prior): (usize, &Prior)| {
         let step = STEP * prior.standard_deviation;
         let moved = |offset: f64| {
@@ -92,8 +91,8 @@ fn recomputed(
             moved[number] += offset;
             self::change(experiment, side, priors, &moved)
         };
-        let above = computation.nearby(&moved(step))?;
-        let below = computation.nearby(&moved(-step))?;
+        let above = computed.compute.receptances(&moved(step))?;
+        let below = computed.compute.receptances(&moved(-step))?;
         let pairs = above.iter().zip(&below);
         let slope = pairs.map(|(above, below)| (above - below) / Complex64::from(2.0 * step));
         Some((number, slope.collect::<Vec<_>>()))

@@ -2,10 +2,8 @@
 
 use std::ops::{Index, IndexMut};
 
-use super::products::{add_rows, dot, dots};
+use super::products::{ROWS as BLOCK, add, add_rows, dot, dots};
 
-/// Rows that products go through at a time.
-const BLOCK: usize = 4;
 /// Columns below which that gains nothing.
 const SHORT: usize = 16;
 
@@ -177,7 +175,7 @@ impl Matrix {
         let first = blocks.len();
         for (block, sums) in blocks.chunks_exact_mut(BLOCK).enumerate() {
             let rows = std::array::from_fn(|i| self.row(BLOCK * block + i));
-            for (sum, own) in sums.iter_mut().zip(dots::<BLOCK>(rows, x)) {
+            for (sum, own) in sums.iter_mut().zip(dots(rows, x)) {
                 *sum += own;
             }
         }
@@ -197,7 +195,7 @@ impl Matrix {
                 count += 1;
             }
             if count == BLOCK {
-                add_rows(block, sum);
+                add(block, sum);
                 count = 0;
             }
         }

@@ -13,7 +13,7 @@ mod modal;
 mod modes;
 mod phi;
 mod preload;
-mod products;
+pub mod products;
 mod propagator;
 mod scratch;
 mod stages;

@@ -1,8 +1,61 @@
 //! Sums of products, which is what most of a step of an assembly is: several rows at a time, so that no sum waits for the one
 //! before, and what they share is read once.
+//!
+//! They give the same bits on every processor. One that takes more numbers at once than all of its kind do takes them in less
+//! time if they are compiled for it: see [`Products`].
+
+use std::sync::OnceLock;
 
 /// Terms of a sum that stand side by side.
-const LANES: usize = 4;
+pub const LANES: usize = 4;
+/// Rows at a time.
+pub const ROWS: usize = 4;
+
+/// Columns of rows, in groups.
+pub type Groups<'a> = &'a [[f64; LANES]];
+
+/// [`group_sums`] and [`add_rows`] as a processor takes them, each compiled for that one.
+#[derive(Clone, Copy, Debug)]
+pub struct Products {
+    /// [`group_sums`].
+    pub group_sums: fn([Groups<'_>; ROWS], Groups<'_>) -> [[f64; LANES]; ROWS],
+    /// [`add_rows`].
+    pub add_rows: fn([(f64, &[f64]); ROWS], &mut [f64]),
+}
+
+impl Products {
+    /// As every processor takes them.
+    const OF_ANY: Self = Self {
+        group_sums: of_any::group_sums,
+        add_rows: of_any::add_rows,
+    };
+
+    /// Takes all sums of this process so from now on. Only the first call counts.
+    pub fn are_taken(self) {
+        let _ = TAKEN.set(self);
+    }
+
+    #[inline]
+    fn taken() -> &'static Self {
+        TAKEN.get().unwrap_or(&Self::OF_ANY)
+    }
+}
+
+static TAKEN: OnceLock<Products> = OnceLock::new();
+
+/// By themselves, so that the lanes are what the compiler does at once, and not the rows.
+mod of_any {
+    use super::{Groups, LANES, ROWS};
+
+    #[inline(never)]
+    pub(super) fn group_sums(rows: [Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
+        super::group_sums(rows, x)
+    }
+
+    pub(super) fn add_rows(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+        super::add_rows(terms, sum);
+    }
+}
 
 /// Σ aᵢ bᵢ
 #[inline]
@@ -19,8 +72,8 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Σ aᵢ xᵢ of several rows a, all of them of the length of x. Each is the same to the bit as by itself.
 #[inline]
-pub(super) fn dots<const ROWS: usize>(rows: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
-    let sums = sums(
+pub(super) fn dots(rows: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
+    let sums = (Products::taken().group_sums)(
         rows.map(|row| row[..x.len()].as_chunks().0),
         x.as_chunks().0,
     );
@@ -35,12 +88,16 @@ fn total([first, second, third, fourth]: [f64; LANES], a: &[f64], b: &[f64]) -> 
     (first + second) + (third + fourth) + rest
 }
 
-/// The sums of each row, lane by lane. By itself, so that the lanes are what the compiler does at once, and not the rows.
-#[inline(never)]
-fn sums<const ROWS: usize>(
-    rows: [&[[f64; LANES]]; ROWS],
-    x: &[[f64; LANES]],
-) -> [[f64; LANES]; ROWS] {
+/// Adds Σ factor · row to `sum`, term by term in their order.
+#[inline]
+pub(super) fn add(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+    (Products::taken().add_rows)(terms, sum);
+}
+
+/// The sums of each row, lane by lane: Σₖ aₖ xₖ of the groups k. Rows have the length of x, or more.
+#[inline(always)]
+#[must_use]
+pub fn group_sums(rows: [Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
     let rows = rows.map(|row| &row[..x.len()]);
     let mut sums = [[0.0; LANES]; ROWS];
     for (place, x) in x.iter().enumerate() {
@@ -53,9 +110,9 @@ fn sums<const ROWS: usize>(
     sums
 }
 
-/// Adds Σ factor · row to `sum`, term by term in their order.
-#[inline]
-pub(super) fn add_rows<const ROWS: usize>(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+/// Adds Σ factor · row to `sum`, term by term in their order. Rows have its length, or more.
+#[inline(always)]
+pub fn add_rows<const ROWS: usize>(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
     let size = sum.len();
     let terms = terms.map(|(factor, row)| (factor, &row[..size]));
     for (place, sum) in sum.iter_mut().enumerate() {
@@ -76,7 +133,7 @@ mod tests {
         let mut random = Random(11);
         for size in [0, 1, 3, 4, 7, 31, 424] {
             let mut row = || -> Vec<f64> { (0..size).map(|_| 2.0 * random.unit() - 1.0).collect() };
-            let (x, rows) = (row(), [row(), row(), row()]);
+            let (x, rows) = (row(), [row(), row(), row(), row()]);
             let each = dots(rows.each_ref().map(Vec::as_slice), &x);
             for (row, own) in rows.iter().zip(each) {
                 assert_eq!(dot(row, &x).to_bits(), own.to_bits(), "{size}");
@@ -84,8 +141,9 @@ mod tests {
                 assert!((own - plain).abs() < 1e-13, "{size}");
             }
             let (mut together, mut one_by_one) = (x.clone(), x.clone());
-            let terms = [(0.3, &rows[0][..]), (-1.7, &rows[1]), (2.9, &rows[2])];
-            add_rows(terms, &mut together);
+            let factors = [0.3, -1.7, 2.9, 0.8];
+            let terms = std::array::from_fn(|i| (factors[i], &rows[i][..]));
+            add(terms, &mut together);
             for term in terms {
                 add_rows([term], &mut one_by_one);
             }

@@ -27,6 +27,9 @@ use strength::Strength;
 
 pub use reversals::REVERSALS_MAX;
 
+/// Part of φ_max within which a motion is that of the latest commit, but for rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A continuum of sliders on one relative DOF, each a spring that slips at its own load: their density over the
 /// displacement φ at which they slip is R φ^χ up to φ_max, and those of the ratio β slip at φ_max itself.
 ///
@@ -175,14 +178,24 @@ impl<N: Number> Law<N> for Iwan<N> {
     fn dissipated_power<M: Number + Into<N>>(&self, memory: &[M], r: N, velocity: N) -> N {
         let reversals = Reversals::of(memory);
         let rate = velocity.value();
+        let way: N = r - reversals.place().into();
+        // a commit has left it here: whoever sums the motion up differently has not turned
+        let is_here = |span: N| way.value().abs() <= ROUNDING * span.value();
         if let Some(sliders) = reversals.elongations(self) {
-            let (way, sign) = (r - reversals.place().into(), rate.signum());
-            return Strength::of(self).slipping(&sliders, way, sign) * N::from(sign) * velocity;
+            let (strength, sign) = (Strength::of(self), rate.signum());
+            let way = match is_here(strength.span) {
+                true => way - N::from(way.value()),
+                false => way,
+            };
+            return strength.slipping(&sliders, way, sign) * N::from(sign) * velocity;
         }
         let Some(curve) = self.curve(memory) else {
             return N::ZERO;
         };
-        let branch = reversals.branch(r.value());
+        let branch = match is_here(curve.span) {
+            true => reversals.branch(reversals.place().value()),
+            false => reversals.branch(r.value()),
+        };
         if rate == 0.0 || branch.is_forward.is_some_and(|it| it != (rate > 0.0)) {
             // where it turns nothing slips yet
             return N::ZERO;

@@ -1,17 +1,14 @@
 //! A beam of the study as a structure that is computed anew where its material or the places on it are not known exactly.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Beam, BeamPoint, ComplexMatrix, Damping, ModalBeam, Motion};
-use bolted_joint_systematic::{Change, Computation, Compute};
+use bolted_joint_systematic::{Change, Compute};
 
 use super::super::study::Substructure;
 use super::substructure::{beam_dofs, signed};
-
-/// Part of the length below which a joint that has moved gets no node beside another one: an element so short leaves rounding in the
-/// low modes.
-const CLOSE: f64 = 1e-2;
 
 /// A beam with its joint and points as the study has them.
 pub(in super::super) struct BeamAnew<'a> {
@@ -21,6 +18,7 @@ pub(in super::super) struct BeamAnew<'a> {
     dofs_of_a_bolt: usize,
     points: &'a [Dof],
     frequency_hz: &'a [f64],
+    stated: OnceLock<Option<ModalBeam>>,
 }
 
 impl<'a> BeamAnew<'a> {
@@ -44,6 +42,7 @@ impl<'a> BeamAnew<'a> {
                 dofs_of_a_bolt,
                 points,
                 frequency_hz,
+                stated: OnceLock::new(),
             }),
             Substructure::Measured { .. } | Substructure::Ground { .. } => None,
         }
@@ -85,36 +84,20 @@ impl<'a> BeamAnew<'a> {
         }
     }
 
-    /// Nodes for these DOFs: the joints where they have moved to, since a moment beside a node lacks the deflection of its own
-    /// element, and the points where the study has them. A joint that comes close to another node stays where the study has it.
-    fn nodes(&self, dofs: &[(BeamPoint, f64)]) -> Option<Vec<BeamPoint>> {
-        let stated = self.dofs(&Change::default())?;
-        let of_joints = self.dofs_of_a_bolt * self.joints_m.len();
-        let ends = [0.0, self.beam.length_m];
-        let others = stated.iter().skip(of_joints);
-        let others: Vec<f64> = others
-            .map(|(point, _)| point.position_m)
-            .chain(ends)
-            .collect();
-        let pairs = dofs.iter().zip(&stated).enumerate();
-        let node = |(number, (&(moved, _), &(stated, _))): (usize, (&(BeamPoint, f64), _))| {
-            let is_close =
-                |other: &f64| (other - moved.position_m).abs() < CLOSE * self.beam.length_m;
-            match number < of_joints && !others.iter().any(is_close) {
-                true => self.on_the_beam(moved),
-                false => stated,
-            }
-        };
-        Some(pairs.map(node).collect())
+    /// Modes with the study's own places as nodes, of the study's own material; `None` where it has none. Every change is one of
+    /// what they are scaled by, or of the places that are looked at.
+    fn stated(&self) -> Option<&ModalBeam> {
+        let modal = self.stated.get_or_init(|| {
+            let dofs = self.dofs(&Change::default())?;
+            let nodes: Vec<BeamPoint> = dofs.into_iter().map(|(point, _)| point).collect();
+            self.beam.modal(&nodes).ok()
+        });
+        modal.as_ref()
     }
 
     /// Beyond an end, where an error of a place can put a sensor that is at the end, the beam goes on straight: at a free end nothing
     /// bends it, so that the first two derivatives by the place have no jump there.
-    fn receptances(
-        &self,
-        modal: &ModalBeam,
-        dofs: &[(BeamPoint, f64)],
-    ) -> Option<Vec<ComplexMatrix>> {
+    fn between(&self, modal: &ModalBeam, dofs: &[(BeamPoint, f64)]) -> Option<Vec<ComplexMatrix>> {
         let mut points: Vec<BeamPoint> = Vec::with_capacity(dofs.len());
         let mut arms_m: Vec<(usize, f64)> = Vec::new();
         for (number, &(point, _)) in dofs.iter().enumerate() {
@@ -148,41 +131,12 @@ impl<'a> BeamAnew<'a> {
 }
 
 impl Compute for BeamAnew<'_> {
-    fn changed(&self, change: &Change) -> Option<Box<dyn Computation + '_>> {
+    fn receptances(&self, change: &Change) -> Option<Vec<ComplexMatrix>> {
         let [youngs_modulus_pa, density_kg_per_m3] = self.material(change);
-        let beam = Beam {
-            youngs_modulus_pa,
-            density_kg_per_m3,
-            damping: self.damping(change),
-            ..self.beam.clone()
-        };
-        let dofs = self.dofs(change)?;
-        let nodes = self.nodes(&dofs)?;
-        Some(Box::new(ChangedBeam {
-            of: self,
-            modal: beam.modal(&nodes).ok()?,
-            dofs,
-        }))
-    }
-}
-
-/// The beam with one change, and the modes that have its points as nodes.
-struct ChangedBeam<'a> {
-    of: &'a BeamAnew<'a>,
-    modal: ModalBeam,
-    dofs: Vec<(BeamPoint, f64)>,
-}
-
-impl Computation for ChangedBeam<'_> {
-    fn receptances(&self) -> Option<Vec<ComplexMatrix>> {
-        self.of.receptances(&self.modal, &self.dofs)
-    }
-
-    /// On the same mesh: what a point beside a node lacks is the same on both sides of it.
-    fn nearby(&self, change: &Change) -> Option<Vec<ComplexMatrix>> {
-        let [youngs_modulus_pa, density_kg_per_m3] = self.of.material(change);
-        let modal = self.modal.of_material(youngs_modulus_pa, density_kg_per_m3);
-        let modal = modal.with_damping(self.of.damping(change));
-        self.of.receptances(&modal, &self.of.dofs(change)?)
+        let modal = self
+            .stated()?
+            .of_material(youngs_modulus_pa, density_kg_per_m3);
+        let modal = modal.with_damping(self.damping(change));
+        self.between(&modal, &self.dofs(change)?)
     }
 }

@@ -348,3 +348,25 @@ fn what_a_lower_preload_no_longer_holds_is_heat() {
     }
     assert!(released > 0.0);
 }
+
+/// An assembly sums the same motion up from its coordinates: a hair less far than it was committed is no way back.
+#[test]
+fn rounding_of_the_motion_does_not_end_the_slip() {
+    let law = law(4000.0, 1.5e7, -0.3, 0.5);
+    let weaker = Iwan {
+        slip_force: 3000.0,
+        ..law
+    };
+    for own in [law, weaker] {
+        let mut memory = Iwan::at_rest();
+        law.commit(&mut memory, -2e-4, 0.0);
+        own.commit(&mut memory, 1.3e-4, 0.0);
+        let power = own.dissipated_power(&memory, 1.3e-4, 0.2);
+        assert!(power > 10.0, "{power}");
+        for r in [1.3e-4 * (1.0 - 1e-13), 1.3e-4 * (1.0 + 1e-13)] {
+            let near = own.dissipated_power(&memory, r, 0.2);
+            assert!((near / power - 1.0).abs() < 1e-9, "{near} {power}");
+        }
+        assert_eq!(own.dissipated_power(&memory, 1.3e-4, -0.2), 0.0);
+    }
+}

@@ -44,6 +44,7 @@ pub(super) struct AssemblyModel {
 
 impl AssemblyModel {
     pub(super) fn new(file: AssemblyFile) -> Self {
+        crate::use_all_of_it();
         Self {
             layout: AssemblyLayout::of(&file),
             state: Underway::at_rest(&file.assembly),

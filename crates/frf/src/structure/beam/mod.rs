@@ -7,6 +7,7 @@ use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 mod element;
+mod inner;
 mod mesh;
 mod modal;
 mod theory;

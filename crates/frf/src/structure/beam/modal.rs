@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use super::inner::inner_compliance;
 use super::mesh::interpolation;
 use super::{Beam, BeamPoint, Damping};
 use crate::structure::StructureError;
@@ -10,8 +11,7 @@ use crate::structure::spatial::Modes;
 
 /// A beam with the modes of one mesh.
 ///
-/// They serve other materials exactly, and other points up to the mesh: a point beside a node lacks the small deflection of
-/// its own element under its own load.
+/// They serve other materials exactly, and other points nearly so: between two nodes the beam takes its static shape.
 ///
 /// ```
 /// use bolted_joint_frf::structure::{Beam, BeamPoint, Boundary, Damping, Motion, Theory};
@@ -118,12 +118,13 @@ impl ModalBeam {
     /// Receptances between all `points`, one matrix (points×points) for each frequency.
     ///
     /// # Errors
-    /// [`StructureError`] if a point is not on the beam or a frequency is that of an undamped mode.
+    /// [`StructureError`] if the beam is not physical, a point is not on it or a frequency is that of an undamped mode.
     pub fn receptances(
         &self,
         points: &[BeamPoint],
         frequency_hz: &[f64],
     ) -> Result<Vec<DMatrix<Complex64>>, StructureError> {
+        self.beam.check()?;
         let amplitudes = self.amplitudes(points)?;
         let pairs: Vec<(usize, usize)> = (0..points.len())
             .flat_map(|q| (0..=q).map(move |p| (p, q)))
@@ -133,12 +134,18 @@ impl ModalBeam {
             amplitudes[(p, mode)] * amplitudes[(q, mode)]
         });
         let [real, imaginary] = self.dynamic_compliances(frequency_hz)?;
-        // H_pq = Σ_r φ_pr φ_qr / (ω_r² − ω² + j d_r)
+        let inner = inner_compliance(&self.beam, &self.nodes, points);
+        let loss = match self.beam.damping {
+            Damping::LossFactor(eta) => Complex64::new(1.0, eta),
+            Damping::Ratios(_) => Complex64::ONE,
+        };
+        // H_pq = Σ_r φ_pr φ_qr / (ω_r² − ω² + j d_r) + what its own element yields
         let [real, imaginary] = [&products * real, &products * imaginary];
         let receptances = (0..frequency_hz.len()).map(|line| {
             let mut receptance = DMatrix::zeros(points.len(), points.len());
             for (pair, &(p, q)) in pairs.iter().enumerate() {
-                let value = Complex64::new(real[(pair, line)], imaginary[(pair, line)]);
+                let through_nodes = Complex64::new(real[(pair, line)], imaginary[(pair, line)]);
+                let value = through_nodes + inner[(p, q)] / loss;
                 receptance[(p, q)] = value;
                 receptance[(q, p)] = value;
             }

@@ -13,7 +13,7 @@ use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::reasons;
 use crate::richer::{Richer, richer};
-use crate::search::{SEARCHED, searched};
+use crate::search::{BY_CHANCE, SEARCHED, searched};
 use crate::spread::Spread;
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
@@ -23,6 +23,13 @@ const ROUNDS: usize = 5;
 
 /// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
 const NOISE: f64 = 0.01;
+
+/// Lines of the estimate of joint and set-up together, and twice as many while it does not hold at the others: what few lines leave
+/// open of the set-up moves resonances.
+const MANY: usize = 300;
+
+/// Levels that a round changes by less than this part are as they are.
+const SETTLED: f64 = 1e-5;
 
 /// Lines that are looked at for each one of the estimate, where the substructures have noise.
 const LOOKED_AT: usize = 10;
@@ -106,15 +113,25 @@ impl SpatialStudy {
             }
             _ => together(problem, &level, is_stated)?,
         };
-        let estimated = match errors {
-            0 => problem.clone(),
-            _ => problem.thinned(LINES_MAX),
-        };
-        if let Level::OfResiduals = self.level {
-            for _ in 0..ROUNDS {
-                level = of_residuals(problem, &best.unknowns, rms)?;
+        let mut estimated = problem.clone();
+        if errors > 0 {
+            estimated = problem.thinned(MANY);
+            // where nothing was found, there is nothing to be told better
+            if best.has_converged {
                 best = best.on(&estimated, &level)?;
             }
+        }
+        loop {
+            if !is_stated {
+                best = self.with_its_level(best, &estimated, rms, &mut level)?;
+            }
+            let used = estimated.frequency_hz.len();
+            let is_all = used >= problem.frequency_hz.len();
+            if is_all || !best.has_converged || holds(problem, &estimated, &best, &level)? {
+                break;
+            }
+            estimated = problem.thinned(2 * used);
+            best = best.on(&estimated, &level)?;
         }
         // all lines, with the errors of the set-up as they were found
         let exact = problem.displaced(&best.unknowns)?;
@@ -149,6 +166,27 @@ impl SpatialStudy {
             shown: exact,
             starts,
         })
+    }
+
+    /// The estimate and a level of each function's noise by what it leaves, in rounds.
+    fn with_its_level(
+        &self,
+        mut best: Fit,
+        estimated: &Problem,
+        rms: &Deviations,
+        level: &mut Deviations,
+    ) -> Result<Fit, SpatialError> {
+        for _ in 0..ROUNDS {
+            let next = of_residuals(&self.problem, &best.unknowns, rms)?;
+            let pairs = std::iter::zip(&next, &*level);
+            let is_settled = pairs.map(|(new, old)| (new / old - 1.0).abs()).all(|own| own < SETTLED);
+            *level = next;
+            best = best.on(estimated, level)?;
+            if is_settled {
+                break;
+            }
+        }
+        Ok(best)
     }
 
     /// Where the substructures' functions have noise.
@@ -306,6 +344,20 @@ impl SpatialStudy {
         result.reasons_against.extend(of_model);
         Ok(result)
     }
+}
+
+/// Whether what was found at some lines leaves no more at all of them, but for chance.
+fn holds(
+    problem: &Problem,
+    estimated: &Problem,
+    best: &Fit,
+    level: &Deviations,
+) -> Result<bool, SpatialError> {
+    let numbers = [estimated, problem].map(|own| own.numbers() as f64);
+    let at_all = cost(problem, &best.unknowns, level)? / numbers[1];
+    // χ² of ν numbers is ν ± √(2 ν)
+    let chance = BY_CHANCE * (2.0 / numbers[0]).sqrt();
+    Ok(at_all <= (1.0 + chance) * best.cost / numbers[0])
 }
 
 /// A part of each r.m.s.

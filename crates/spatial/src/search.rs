@@ -13,7 +13,7 @@ pub(crate) const SEARCHED: usize = 60;
 const AS_LOW: f64 = 1e-6;
 
 /// Standard deviations of χ² up to which chance explains it.
-const BY_CHANCE: f64 = 3.0;
+pub(crate) const BY_CHANCE: f64 = 3.0;
 
 /// Cost, in parts of the count of numbers, below which nothing is left that another minimum could be lower by.
 pub(crate) const NOTHING: f64 = 1e-9;

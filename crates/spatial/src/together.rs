@@ -9,13 +9,13 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::NOTHING;
+use crate::search::{BY_CHANCE, NOTHING};
 use crate::starts::starts;
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
 const LINES: usize = 12;
 
-/// Lines of the estimate. More would tell the errors of the set-up little better.
+/// Lines at which a search ends. The estimate goes on from there at more.
 pub(crate) const LINES_MAX: usize = 60;
 
 /// Noise of a step, in parts of the residuals of the step before.
@@ -44,9 +44,12 @@ const RIGID: f64 = 1e4;
 /// Starts of each kind that are followed before those beside the errors of the lowest search.
 const AT_FIRST: usize = 4;
 
+/// Minima that noise explains at the lines of the search and not at those of the estimate, after which no other is looked for.
+const MOST_CHECKED: usize = 6;
+
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, and how many came to the same
-/// minimum. None follows one that noise explains, where its level is stated, one that leaves nothing, or two that agree on what
-/// is not far above the noise.
+/// minimum. None follows one that noise explains at all these lines, where its level is stated, one that leaves nothing, or two that
+/// agree: on what noise explains at the lines of the searches, or is not far above it.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
@@ -81,6 +84,11 @@ pub(crate) fn together(
     }
     // a minimum that nothing confirms may be another one
     let is_confirmed = searches.is_confirmed();
+    let agreeing = searches.agreeing();
+    if let Some(mut fit) = searches.lowest_checked() {
+        fit.has_converged &= is_confirmed && !searches.is_rigid(&fit);
+        return Ok((fit, [searches.tried, agreeing]));
+    }
     let best = searches.best.take().ok_or(SpatialError::NoStart)?;
     // what nothing explains has no bottom that is worth the way there
     let effort = match lags(&searches.thin, best.cost) && !is_confirmed {
@@ -90,7 +98,7 @@ pub(crate) fn together(
     let mut fit = Fit::of(&lines, best.unknowns, level, effort)?;
     // more lines may lead where a motion gets lost
     fit.has_converged &= is_confirmed && !(is_stated && searches.is_rigid(&fit));
-    Ok((fit, [searches.tried, searches.agreeing]))
+    Ok((fit, [searches.tried, agreeing]))
 }
 
 /// Along curves on which the functions are nearly straight, or straight on: each finds what the other one misses.
@@ -112,9 +120,13 @@ struct Searches<'p> {
     thin: Problem,
     /// … and along curves.
     curved: Problem,
+    /// Those of the estimate.
+    lines: Problem,
     /// The structures' own stiffnesses.
     balance: Vec<f64>,
     best: Option<Fit>,
+    /// At the lines of the estimate, what noise of a stated level explains at those of the searches.
+    checked: Vec<Fit>,
     tried: usize,
     agreeing: usize,
 }
@@ -140,8 +152,10 @@ impl<'p> Searches<'p> {
                 ..thin.clone()
             },
             thin,
+            lines: problem.thinned(LINES_MAX),
             balance,
             best: None,
+            checked: Vec::new(),
             tried: 0,
             agreeing: 0,
         })
@@ -179,8 +193,22 @@ impl<'p> Searches<'p> {
                 own if own >= lowest * (1.0 - AS_LOW) => self.agreeing + 1,
                 _ => 1,
             };
+            // noise explains other minima as well at a few lines
+            if self.is_stated && self.explains(&fit) && self.checked.len() < MOST_CHECKED {
+                let start = fit.unknowns.clone();
+                if let Ok(at_more) = Fit::of(&self.lines, start, self.level, Effort::Full) {
+                    self.checked.push(at_more);
+                    if self.is_checked() || self.agreeing() > 1 {
+                        self.best = Some(fit);
+                        return true;
+                    }
+                }
+            }
             if fit.cost < lowest {
                 self.best = Some(fit);
+            }
+            if !self.checked.is_empty() {
+                continue;
             }
             // two that are far above the noise agree on where a search gets stuck
             let is_low = |best: &Fit| !self.is_stated || !lags(&self.thin, best.cost);
@@ -226,7 +254,36 @@ impl<'p> Searches<'p> {
         self.is_stated && self.best.as_ref().is_some_and(|best| best.cost > most)
     }
 
+    /// Whether noise explains the latest of them at the lines of the estimate, too.
+    fn is_checked(&self) -> bool {
+        let numbers = self.lines.numbers() as f64;
+        // χ² of ν numbers is ν ± √(2 ν)
+        let explained = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
+        let latest = self.checked.last();
+        latest.is_some_and(|fit| fit.cost < explained && !self.is_rigid(fit))
+    }
+
+    fn lowest_checked(&mut self) -> Option<Fit> {
+        let all = self.checked.iter().enumerate();
+        let lowest = all.min_by(|(_, one), (_, other)| one.cost.total_cmp(&other.cost));
+        let (place, _) = lowest?;
+        Some(self.checked.swap_remove(place))
+    }
+
+    /// Searches that came to the lowest minimum.
+    fn agreeing(&self) -> usize {
+        let costs = self.checked.iter().map(|fit| fit.cost);
+        let lowest = costs.clone().fold(f64::INFINITY, f64::min);
+        match self.checked.is_empty() {
+            true => self.agreeing,
+            false => costs.filter(|cost| *cost <= lowest * (1.0 + AS_LOW)).count(),
+        }
+    }
+
     fn is_confirmed(&self) -> bool {
+        if !self.checked.is_empty() {
+            return self.is_checked() || self.agreeing() > 1;
+        }
         let best = self.best.as_ref();
         best.is_some_and(|best| self.agree(best) || self.explains(best))
     }

@@ -115,8 +115,8 @@ impl SpatialStudy {
         };
         let mut estimated = problem.clone();
         if errors > 0 {
-            estimated = problem.thinned(MANY);
             // where nothing was found, there is nothing to be told better
+            estimated = problem.thinned(if best.has_converged { MANY } else { LINES_MAX });
             if best.has_converged {
                 best = best.on(&estimated, &level)?;
             }
@@ -176,10 +176,16 @@ impl SpatialStudy {
         rms: &Deviations,
         level: &mut Deviations,
     ) -> Result<Fit, SpatialError> {
+        if self.problem.error_count() > 0 && !best.has_converged {
+            *level = of_residuals(&self.problem, &best.unknowns, rms)?;
+            return Ok(best);
+        }
         for _ in 0..ROUNDS {
             let next = of_residuals(&self.problem, &best.unknowns, rms)?;
             let pairs = std::iter::zip(&next, &*level);
-            let is_settled = pairs.map(|(new, old)| (new / old - 1.0).abs()).all(|own| own < SETTLED);
+            let is_settled = pairs
+                .map(|(new, old)| (new / old - 1.0).abs())
+                .all(|own| own < SETTLED);
             *level = next;
             best = best.on(estimated, level)?;
             if is_settled {
@@ -337,6 +343,8 @@ impl SpatialStudy {
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
         let of_energy = reasons::of_energy(squares_from_free, count);
         result.reasons_against.extend(of_energy);
+        let of_nothing = reasons::of_nothing(&result.unknowns);
+        result.reasons_against.extend(of_nothing);
         let found = [&result.stiffness, &result.damping];
         let of_model = richer
             .as_ref()

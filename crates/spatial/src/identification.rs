@@ -26,6 +26,12 @@ pub struct Unknown {
 }
 
 impl Unknown {
+    /// Whether it is a stiffness of one motion, and none between two.
+    pub(crate) fn is_stiffness(&self) -> bool {
+        let motion = self.name.strip_prefix("k_");
+        motion.is_some_and(|motion| !motion.contains('_'))
+    }
+
     /// Interval of 95 %, about the free estimate and with the passive one in it.
     #[must_use]
     pub fn interval_95(&self) -> [f64; 2] {

@@ -4,7 +4,7 @@ use bolted_joint_space::semidefinite;
 use bolted_joint_statistics::chi_squared_tail;
 use nalgebra::Matrix6;
 
-use crate::identification::SpatialIdentification;
+use crate::identification::{SpatialIdentification, Unknown};
 
 /// Squares of the errors of the set-up over those of the budget beyond which it does not hold.
 const BEYOND_BUDGET: f64 = 2.0;
@@ -49,6 +49,16 @@ impl SpatialIdentification {
         }
         reasons
     }
+}
+
+/// Of a joint none of whose stiffnesses the functions determine.
+pub(crate) fn of_nothing(unknowns: &[Unknown]) -> Option<String> {
+    let mut stiffnesses = unknowns.iter().filter(|own| own.is_stiffness());
+    stiffnesses.all(|own| !own.is_determined).then(|| {
+        "the functions determine no stiffness: the assembly moves as the structures do apart; name the file that was measured with both \
+         bolted together in assembly.frf"
+            .to_owned()
+    })
 }
 
 /// Of a search, and of how far its functions are from the measured ones.

@@ -18,6 +18,10 @@ pub(crate) const BY_CHANCE: f64 = 3.0;
 /// Cost, in parts of the count of numbers, below which nothing is left that another minimum could be lower by.
 pub(crate) const NOTHING: f64 = 1e-9;
 
+/// Searches after which functions of which all leave so large a part are taken to have no joint, where no level is stated.
+const PATIENCE: usize = 8;
+const HOPELESS: f64 = 0.2;
+
 /// Searches that crept far above what noise explains and are followed to the end, the lowest ones, where none was better.
 const FOLLOWED: usize = 3;
 
@@ -32,9 +36,10 @@ pub(crate) fn searched(
     let numbers = problem.numbers() as f64;
     // χ² of ν numbers is ν ± √(2 ν)
     let explained = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
-    let effort = match is_stated {
-        true => Effort::Promising(explained),
-        false => Effort::Full,
+    // without a stated level the lowest so far says what is far above
+    let promising = |ended: &[Fit]| match is_stated {
+        true => explained,
+        false => lowest(ended),
     };
     let is_explained = |fit: &Fit| {
         let leaves_nothing = fit.cost < NOTHING * numbers;
@@ -45,6 +50,7 @@ pub(crate) fn searched(
     let mut tried = 0;
     for start in starts(problem, level)? {
         tried += 1;
+        let effort = Effort::Promising(promising(&ended));
         let Ok(fit) = Fit::of(problem, start, level, effort) else {
             continue;
         };
@@ -53,7 +59,10 @@ pub(crate) fn searched(
             false => crept.push(fit),
         }
         let has_agreed = !is_stated && agreeing(&ended, numbers) > 1;
-        if has_agreed || ended.last().is_some_and(is_explained) {
+        // the level is the functions' own
+        let is_hopeless =
+            !is_stated && tried >= PATIENCE && lowest(&ended) > HOPELESS.powi(2) * numbers;
+        if has_agreed || is_hopeless || ended.last().is_some_and(is_explained) {
             break;
         }
     }
@@ -77,12 +86,14 @@ pub(crate) fn searched(
     Ok((best, [tried, agreeing]))
 }
 
+fn lowest(fits: &[Fit]) -> f64 {
+    let costs = fits.iter().map(|fit| fit.cost);
+    costs.fold(f64::INFINITY, f64::min)
+}
+
 /// How many came as low as the lowest.
 fn agreeing(fits: &[Fit], numbers: f64) -> usize {
-    let lowest = fits
-        .iter()
-        .map(|fit| fit.cost)
-        .fold(f64::INFINITY, f64::min);
+    let lowest = lowest(fits);
     let as_low = AS_LOW * (lowest + numbers);
     let of_them = fits.iter().filter(|fit| fit.cost <= lowest + as_low);
     of_them.count()

@@ -29,8 +29,8 @@ const PATIENCE: usize = 2;
 const LAGGING: f64 = 3.0;
 const EXPLAINED: f64 = 1.05;
 
-/// Likewise of a set-up that no joint goes with.
-const HOPELESS: f64 = 30.0;
+/// Likewise of a set-up that no joint goes with, with noise as it is stated and as it is taken to be where it is not.
+const HOPELESS: [f64; 2] = [30.0, 1000.0];
 
 /// Likewise of the errors of the set-up.
 const EXPECTED: f64 = 1.3;
@@ -250,8 +250,10 @@ impl<'p> Searches<'p> {
 
     /// Whether all searches so far are so far above the noise that the set-up is another one than the study says.
     fn is_hopeless(&self) -> bool {
-        let most = HOPELESS * self.thin.numbers() as f64;
-        self.is_stated && self.best.as_ref().is_some_and(|best| best.cost > most)
+        let [stated, taken] = HOPELESS;
+        let most = if self.is_stated { stated } else { taken };
+        let best = self.best.as_ref();
+        best.is_some_and(|best| best.cost > most * self.thin.numbers() as f64)
     }
 
     /// Whether noise explains the latest of them at the lines of the estimate, too.
@@ -276,7 +278,9 @@ impl<'p> Searches<'p> {
         let lowest = costs.clone().fold(f64::INFINITY, f64::min);
         match self.checked.is_empty() {
             true => self.agreeing,
-            false => costs.filter(|cost| *cost <= lowest * (1.0 + AS_LOW)).count(),
+            false => costs
+                .filter(|cost| *cost <= lowest * (1.0 + AS_LOW))
+                .count(),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::SEARCHED;
+use crate::search::{BY_CHANCE, SEARCHED};
 use crate::starts::starts;
 
 /// Lines of the search from several starts.
@@ -25,7 +25,7 @@ const EXPECTED: f64 = 1.5;
 const AS_LOW: f64 = 1e-3;
 
 /// The lowest of the searches at a few lines, how many starts were tried and how many came as low. None is tried after one that
-/// noise and budget explain.
+/// noise and budget explain as chance has it, or after two that agree on what is not far above.
 pub(crate) fn searched_beside(
     problem: &Problem,
     level: &Deviations,
@@ -52,6 +52,8 @@ pub(crate) fn searched_beside(
         fit.cost < EXPLAINED * numbers
             && squares_of_errors(problem, &fit.unknowns) <= EXPECTED * errors
     };
+    // χ² of ν numbers is ν ± √(2 ν)
+    let by_chance = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
     let mut best: Option<Fit> = None;
     let (mut tried, mut agreeing) = (0, 0);
     for (residual, start) in starts {
@@ -68,7 +70,8 @@ pub(crate) fn searched_beside(
         if fit.cost < lowest {
             best = Some(fit);
         }
-        if best.as_ref().is_some_and(explained) {
+        let is_enough = |best: &Fit| explained(best) && (best.cost < by_chance || agreeing > 1);
+        if best.as_ref().is_some_and(is_enough) {
             break;
         }
     }

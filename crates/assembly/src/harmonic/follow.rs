@@ -181,3 +181,51 @@ pub(super) fn follow(
     }
     Err(lost(&points, &place, true))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x = 1 − e^(−t) as far as there is a t.
+    struct Approaching {
+        until: f64,
+    }
+
+    impl Curve for Approaching {
+        fn at(&self, unknowns: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+            let (x, t) = (unknowns[0], unknowns[1]);
+            let residual = DVector::from_element(1, x - 1.0 + (-t).exp());
+            (t <= self.until)
+                .then(|| (residual, DMatrix::from_row_slice(1, 2, &[1.0, -(-t).exp()])))
+        }
+
+        fn scale(&self, _: &DVector<f64>) -> DVector<f64> {
+            DVector::from_element(2, 1.0)
+        }
+    }
+
+    fn approached(until: f64, to: f64) -> Result<Vec<DVector<f64>>, Lost> {
+        follow(&Approaching { until }, DVector::zeros(2), 0, to, &|_| ())
+    }
+
+    #[test]
+    fn a_curve_ends_at_its_end() {
+        let points = approached(f64::INFINITY, 0.9).unwrap();
+        let last = points.last().unwrap();
+        assert_eq!(last[0], 0.9);
+        assert!((last[1] - 10.0_f64.ln()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_curve_that_comes_to_no_end_is_left() {
+        let lost = approached(f64::INFINITY, 1.5).unwrap_err();
+        assert!(lost.is_too_long && lost.points > 1000);
+    }
+
+    #[test]
+    fn a_curve_that_breaks_off_is_left_there() {
+        let lost = approached(0.7, 0.9).unwrap_err();
+        assert!(!lost.is_too_long && lost.points > 5);
+        assert!((lost.last[1] - 0.7).abs() < 1e-6, "{lost:?}");
+    }
+}

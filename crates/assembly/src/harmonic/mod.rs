@@ -292,3 +292,6 @@ impl<'m> Problem<'m> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,7 @@
 //! Why an assembly cannot be read or computed.
 
 use bolted_joint_frf::structure::StructureError;
+use bolted_joint_harmonic::HarmonicError;
 use bolted_joint_joint::{JointFileError, LawError};
 use bolted_joint_study::StudyError;
 use thiserror::Error;
@@ -49,6 +50,31 @@ pub enum AssemblyError {
         /// Frequency, Hz.
         frequency_hz: f64,
     },
+    /// The shortest step along a curve finds no further motion.
+    #[error(
+        "harmonic balance follows the assembly's motion no farther than {frequency_hz} Hz, after {points} points: the shortest step \
+         finds no further one; take another number of harmonics, less load, or a range that ends there"
+    )]
+    CurveStuck {
+        /// Frequency of the last motion, Hz.
+        frequency_hz: f64,
+        /// Motions found.
+        points: usize,
+    },
+    /// A curve that goes on and on.
+    #[error(
+        "the curve of the assembly's motions has not come to its end after {points} points, the last at {frequency_hz} Hz; take fewer \
+         harmonics, less load or a smaller range"
+    )]
+    CurveTooLong {
+        /// Frequency of the last motion, Hz.
+        frequency_hz: f64,
+        /// Motions found.
+        points: usize,
+    },
+    /// Harmonics that cannot be balanced.
+    #[error(transparent)]
+    Harmonics(#[from] HarmonicError),
     /// There is no such mode.
     #[error(
         "`response.mode`: found {mode}, expected 1 to {found}, the number of modes that oscillate"

@@ -8,10 +8,11 @@
 
 use bolted_joint_dynamics::{
     Dual, Number,
-    law::{DOF_AT_REST, DofLaws, DofMemory, RememberedAs, remembered},
+    law::{DOF_AT_REST, DofLaws, DofMemory, FORGETFUL_PARAMETER_COUNT, RememberedAs, remembered},
 };
 use nalgebra::DMatrix;
 
+use super::Harmonics;
 use super::course::Course;
 use super::quadrature::NODES;
 
@@ -25,10 +26,28 @@ const GROUP: usize = 2;
 type Changing = Dual<3>;
 /// Most periods until a load that relaxes is steady.
 const MOST_PERIODS: usize = 50;
+/// Relative change of such a load in a period below which it is steady as soon as the next one changes it no less.
+const NEARLY_STEADY: f64 = 1e-12;
 
-/// Laws that remember, on one DOF.
+/// Laws that remember, on one DOF: what they answer to its periodic motion.
+///
+/// ```
+/// use bolted_joint_dynamics::law::{DofLaws, Jenkins};
+/// use bolted_joint_harmonic::{Harmonics, Remembering};
+/// use nalgebra::DMatrix;
+///
+/// # fn main() -> Result<(), bolted_joint_harmonic::HarmonicError> {
+/// let slider = DofLaws::from(Jenkins { stiffness: 2.0, slip_force: 1.0 });
+/// let laws = Remembering::of(&slider).expect("a slider remembers");
+/// // r = cos τ: it slips half of the way, and its load turns 4 F (1 − F/k) into heat
+/// let (mut load, mut by_motion) = (vec![0.0; 2], DMatrix::zeros(2, 2));
+/// laws.add_harmonics(&Harmonics::odd(1)?, &[1.0, 0.0], &mut load, &mut by_motion);
+/// assert!((-std::f64::consts::PI * load[1] - 2.0).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Remembering {
+pub struct Remembering {
     laws: DofLaws,
     /// ∂f/∂r before the first motion: N/m, N·m/rad.
     stuck: f64,
@@ -44,6 +63,16 @@ struct Loop<'a> {
 }
 
 impl Remembering {
+    /// Those of the laws on a DOF that remember, `None` where none does. LuGre's law must not be among them,
+    /// whose load depends on how fast it slips.
+    #[must_use]
+    pub fn of(laws: &DofLaws) -> Option<Self> {
+        let mut parameters = *laws.parameters();
+        parameters[..FORGETFUL_PARAMETER_COUNT].fill(0.0);
+        let laws = DofLaws::new(parameters);
+        (!laws.are_none()).then(|| Self::new(laws))
+    }
+
     pub(super) fn new(laws: DofLaws) -> Self {
         let changing = DofLaws::new(laws.parameters().map(Dual::<1>::from));
         let at_rest = changing.load(&DOF_AT_REST, Dual::along(0.0, 0), Dual::ZERO);
@@ -56,6 +85,25 @@ impl Remembering {
     /// Stiffness while all sticks, N/m or N·m/rad.
     pub(super) fn stuck(&self) -> f64 {
         self.stuck
+    }
+
+    /// Adds the harmonics of the load at a motion r(t) = a₀ + Σ (a_h cos hωt + b_h sin hωt), and their derivatives by its
+    /// coefficients, all in the order of the [`Harmonics`].
+    ///
+    /// # Panics
+    /// Where a list or the matrix has another size than the harmonics have coefficients.
+    pub fn add_harmonics(
+        &self,
+        harmonics: &Harmonics,
+        motion: &[f64],
+        load: &mut [f64],
+        by_motion: &mut DMatrix<f64>,
+    ) {
+        for (n, (load, coefficient)) in load.iter_mut().zip(motion).enumerate() {
+            *load += self.stuck * coefficient;
+            by_motion[(n, n)] += self.stuck;
+        }
+        self.add(Course::new(harmonics, motion), 0, load, by_motion);
     }
 
     /// Adds the harmonics of the load beyond that of the stiffness while all sticks, and their derivatives by the coefficients,
@@ -84,11 +132,12 @@ impl Remembering {
         }
     }
 
-    /// The memory at the end of a steady period, and by how much of its change each number in it still changes after a period.
+    /// The memory at the end of a steady period, and by how much of its change each number in it that relaxes still changes
+    /// after a [part](Loop::part) of a period.
     fn steady(&self, way: &Loop<'_>) -> (DofMemory, Vec<(usize, f64)>) {
         let mut memory = DOF_AT_REST;
         way.period(&self.laws, &mut memory, &way.places);
-        // Masing's laws have come to their loop. A load relaxes towards it, by Newton's method.
+        // Masing's laws have come to their loop. A load that relaxes comes to it by Newton's method.
         let relaxing: Vec<usize> = remembered()
             .filter(|(_, _, of)| of.quantity == RememberedAs::Load)
             .map(|(place, _, _)| place)
@@ -100,28 +149,34 @@ impl Remembering {
         }
         let laws = DofLaws::new(self.laws.parameters().map(Dual::<1>::from));
         let places: Vec<Dual<1>> = way.places.iter().map(|&place| place.into()).collect();
+        let mut last = f64::INFINITY;
         for _ in 0..MOST_PERIODS {
             let mut after = memory.map(Dual::<1>::from);
             for &place in &relaxing {
                 after[place] = Dual::along(memory[place], 0);
             }
-            way.period(&laws, &mut after, &places);
+            let begun: Vec<f64> = relaxing.iter().map(|&place| memory[place]).collect();
+            way.part(&laws, &mut after, &places);
+            let parted: Vec<Dual<1>> = relaxing.iter().map(|&place| after[place]).collect();
+            way.rest(&laws, &mut after, &places);
+            memory = after.map(|number| number.value);
             lasting.clear();
             let mut moves: f64 = 0.0;
-            for (n, number) in after.iter().enumerate() {
-                if !relaxing.contains(&n) {
-                    memory[n] = number.value;
-                    continue;
-                }
-                let lasts = number.change[0];
-                let step = (number.value - memory[n]) / (1.0 - lasts);
-                moves = moves.max(step.abs() / (number.value.abs() + memory[n].abs()));
-                memory[n] += step;
-                lasting.push((n, lasts));
+            for ((&place, before), parted) in relaxing.iter().zip(begun).zip(parted) {
+                // s = ±g(s), with the upper sign where the part is all of the period
+                let (reached, lasts) = (way.sign() * parted.value, way.sign() * parted.change[0]);
+                let step = (reached - before) / (1.0 - lasts);
+                moves = moves.max(step.abs() / (reached.abs() + before.abs()));
+                memory[place] = before + step;
+                lasting.push((place, lasts));
             }
-            if moves.is_nan() || moves < 4.0 * f64::EPSILON {
+            if moves.is_nan()
+                || moves < 4.0 * f64::EPSILON
+                || moves < NEARLY_STEADY && moves >= last
+            {
                 break;
             }
+            last = moves;
         }
         (memory, lasting)
     }
@@ -193,13 +248,19 @@ fn memories(
     if !lasting.is_empty() {
         // again, now that the place where a period begins changes too
         for &(place, _) in lasting {
-            memory[place] = Dual::from(memory[place].value);
+            memory[place] = Dual::from(steady[place]);
         }
-        way.period(laws, &mut memory, &places);
-    }
-    // s = g(s, u): ds = (∂g/∂u)/(1 − ∂g/∂s) du
-    for &(place, lasts) in lasting {
-        memory[place].change = memory[place].change.map(|change| change / (1.0 - lasts));
+        way.part(laws, &mut memory, &places);
+        // s = ±g(s, u): ds = ±(∂g/∂u)/(1 ∓ ∂g/∂s) du
+        let by_turns = |&(place, lasts): &(usize, f64)| {
+            let change = memory[place].change;
+            change.map(|change| way.sign() * change / (1.0 - lasts))
+        };
+        let by_turns: Vec<[f64; 3]> = lasting.iter().map(by_turns).collect();
+        way.rest(laws, &mut memory, &places);
+        for (&(place, _), change) in lasting.iter().zip(by_turns) {
+            memory[place] = Dual::new(steady[place], change);
+        }
     }
     let mut begins = Vec::with_capacity(places.len());
     for &place in &places {
@@ -234,14 +295,30 @@ impl<'a> Loop<'a> {
 
     /// Moves a memory on over one period.
     fn period<N: Number>(&self, laws: &DofLaws<N>, memory: &mut DofMemory<N>, places: &[N]) {
+        self.part(laws, memory, places);
+        self.rest(laws, memory, places);
+    }
+
+    /// Over the part of it whose motion tells all: half of it where the motion is odd. What is steady is there what it was, or
+    /// the opposite of that.
+    fn part<N: Number>(&self, laws: &DofLaws<N>, memory: &mut DofMemory<N>, places: &[N]) {
         for &place in places {
             laws.commit(memory, place, N::ZERO);
         }
+    }
+
+    /// Over what is left of it then.
+    fn rest<N: Number>(&self, laws: &DofLaws<N>, memory: &mut DofMemory<N>, places: &[N]) {
         if self.course.is_odd() {
             for &place in places {
                 laws.commit(memory, -place, N::ZERO);
             }
         }
+    }
+
+    /// What a steady load is after the part to what it was before: 1, and −1 where the motion is odd.
+    fn sign(&self) -> f64 {
+        if self.course.is_odd() { -1.0 } else { 1.0 }
     }
 
     /// τ of a branch's ends.

@@ -66,6 +66,7 @@ mod stability;
 mod system;
 
 pub use balance::HarmonicBalance;
+pub use branches::Remembering;
 pub use continuation::Steps;
 pub use curve::{CurveOptions, CurvePoint};
 pub use error::HarmonicError;

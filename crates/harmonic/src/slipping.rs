@@ -2,7 +2,7 @@
 
 use bolted_joint_dynamics::{
     JointLaw,
-    law::{DofLaws, FORGETFUL_PARAMETER_COUNT, Law, LuGre},
+    law::{DofLaws, Law, LuGre},
 };
 
 use super::HarmonicError;
@@ -28,13 +28,9 @@ impl<const D: usize> Slipping<D> {
         if laws.any(|law| law.name == rate_dependent) {
             return Err(HarmonicError::Rate);
         }
-        let on = joint.on.map(|laws| {
-            let mut parameters = *laws.parameters();
-            parameters[..FORGETFUL_PARAMETER_COUNT].fill(0.0);
-            let laws = DofLaws::new(parameters);
-            (!laws.are_none()).then(|| Remembering::new(laws))
-        });
-        Ok(Some(Self { on }))
+        Ok(Some(Self {
+            on: joint.on.each_ref().map(Remembering::of),
+        }))
     }
 
     /// Those on a DOF, if there are any.

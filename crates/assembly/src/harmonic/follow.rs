@@ -6,7 +6,8 @@ use nalgebra::{DMatrix, DVector};
 const FIRST: f64 = 0.02;
 const LONGEST: f64 = 0.1;
 const SHORTEST: f64 = 1e-9;
-const MOST_POINTS: usize = 100_000;
+/// Steps that are tried, those among them that were too long: a curve has some hundreds.
+const MOST_TRIALS: usize = 50_000;
 const MOST_ITERATIONS: usize = 10;
 const USUAL_ITERATIONS: f64 = 3.0;
 /// Change of the unknowns at which a point is one of the curve.
@@ -27,29 +28,42 @@ pub(super) trait Curve {
     fn scale(&self, unknowns: &DVector<f64>) -> DVector<f64>;
 }
 
-/// Why a curve ends where it should not.
+/// A curve that ends where it should not.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
-    /// The points up to there.
-    pub(super) points: Vec<DVector<f64>>,
+    /// The last point.
+    pub(super) last: DVector<f64>,
+    /// How many points there are up to there.
+    pub(super) points: usize,
+    /// Whether it went on, but did not come to its end.
+    pub(super) is_too_long: bool,
 }
 
-/// A row that closes the equations: its product with the scaled change of the unknowns is zero.
+/// A point of a curve.
+struct Point {
+    unknowns: DVector<f64>,
+    /// The direction in which the closing row grows there, of length one, of scaled unknowns.
+    tangent: DVector<f64>,
+    /// Iterations to it.
+    iterations: usize,
+}
+
+/// The point near `start` in the plane across a row: the product of that with the scaled change of the unknowns is zero.
 fn solve(
     curve: &dyn Curve,
     start: &DVector<f64>,
     scale: &DVector<f64>,
     row: &DVector<f64>,
-) -> Option<(DVector<f64>, usize)> {
+) -> Option<Point> {
     let mut unknowns = start.clone();
     let mut last = f64::INFINITY;
     for iteration in 1..=MOST_ITERATIONS {
         let (residual, derivatives) = curve.at(&unknowns)?;
         let count = residual.len();
-        let matrix = closed(&derivatives, scale, row);
+        let factors = closed(&derivatives, scale, row).lu();
         let mut right = DVector::zeros(count + 1);
         right.rows_mut(0, count).copy_from(&-residual);
-        let change = matrix.lu().solve(&right)?;
+        let change = factors.solve(&right)?;
         let size = change.amax();
         if !size.is_finite() {
             return None;
@@ -57,7 +71,16 @@ fn solve(
         unknowns += change.component_mul(scale);
         // or where rounding, or the corners of what slides, allow no less
         if size < CONVERGED || size < CONVERGED.sqrt() && size > LITTLE_LESS * last {
-            return Some((unknowns, iteration));
+            // the derivatives of the point before, from which this one cannot be told
+            right.fill(0.0);
+            right[count] = 1.0;
+            let tangent = factors.solve(&right)?;
+            let norm = tangent.norm();
+            return (norm.is_finite() && norm > 0.0).then(|| Point {
+                unknowns,
+                tangent: tangent / norm,
+                iterations: iteration,
+            });
         }
         last = size;
     }
@@ -81,22 +104,7 @@ fn closed(derivatives: &DMatrix<f64>, scale: &DVector<f64>, row: &DVector<f64>) 
 pub(super) fn point(curve: &dyn Curve, start: &DVector<f64>, held: usize) -> Option<DVector<f64>> {
     let mut row = DVector::zeros(start.len());
     row[held] = 1.0;
-    solve(curve, start, &curve.scale(start), &row).map(|(unknowns, _)| unknowns)
-}
-
-/// The tangent of length one at a point, of scaled unknowns, that has `row` on its side.
-fn tangent(
-    curve: &dyn Curve,
-    unknowns: &DVector<f64>,
-    scale: &DVector<f64>,
-    row: &DVector<f64>,
-) -> Option<DVector<f64>> {
-    let (residual, derivatives) = curve.at(unknowns)?;
-    let mut right = DVector::zeros(residual.len() + 1);
-    right[residual.len()] = 1.0;
-    let tangent = closed(&derivatives, scale, row).lu().solve(&right)?;
-    let norm = tangent.norm();
-    (norm.is_finite() && norm > 0.0).then(|| tangent / norm)
+    solve(curve, start, &curve.scale(start), &row).map(|point| point.unknowns)
 }
 
 /// The curve from a point on it until its unknown of the place `monitored` leaves what is between its value there and `to`, the
@@ -112,27 +120,41 @@ pub(super) fn follow(
     let direction = (to - from).signum();
     let mut place = start;
     let mut points = vec![place.clone()];
+    let lost = |points: &[DVector<f64>], place: &DVector<f64>, is_too_long: bool| Lost {
+        last: place.clone(),
+        points: points.len(),
+        is_too_long,
+    };
     let mut scale = curve.scale(&place);
     let mut row = DVector::zeros(place.len());
     row[monitored] = direction;
-    let Some(mut along) = tangent(curve, &place, &scale, &row) else {
-        return Err(Lost { points });
+    let Some(begun) = solve(curve, &place, &scale, &row) else {
+        return Err(lost(&points, &place, false));
     };
+    let mut along = begun.tangent;
     let mut length = FIRST;
-    while points.len() < MOST_POINTS {
+    // the farthest that it came
+    let mut reached: f64 = 0.0;
+    for _ in 0..MOST_TRIALS {
         let predicted = &place + (&along * length).component_mul(&scale);
-        let found = solve(curve, &predicted, &scale, &along).and_then(|(next, iterations)| {
-            let turned = tangent(curve, &next, &scale, &along)?;
-            let is_smooth = turned.dot(&along) > SMALLEST_COSINE;
-            (is_smooth || length < KINK).then_some((next, turned, iterations, is_smooth))
+        let found = solve(curve, &predicted, &scale, &along).and_then(|next| {
+            let is_smooth = next.tangent.dot(&along) > SMALLEST_COSINE;
+            (is_smooth || length < KINK).then_some((next, is_smooth))
         });
-        let Some((next, turned, iterations, is_smooth)) = found else {
+        // tells how far it is, and asks whether it is still wanted
+        progress(reached);
+        let Some((next, is_smooth)) = found else {
             length *= 0.5;
             if length < SHORTEST {
-                return Err(Lost { points });
+                return Err(lost(&points, &place, false));
             }
             continue;
         };
+        let Point {
+            unknowns: next,
+            tangent: turned,
+            iterations,
+        } = next;
         if (next[monitored] - to) * direction >= 0.0 {
             let mut last = next;
             last[monitored] = to;
@@ -142,7 +164,7 @@ pub(super) fn follow(
         if (next[monitored] - from) * direction < 0.0 {
             return Ok(points);
         }
-        progress((next[monitored] - from) / (to - from));
+        reached = reached.max((next[monitored] - from) / (to - from));
         let faster = (USUAL_ITERATIONS / iterations as f64).clamp(0.5, 1.5);
         length = match is_smooth {
             true => (length * faster).min(LONGEST),
@@ -157,5 +179,53 @@ pub(super) fn follow(
         place = next;
         points.push(place.clone());
     }
-    Err(Lost { points })
+    Err(lost(&points, &place, true))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x = 1 − e^(−t) as far as there is a t.
+    struct Approaching {
+        until: f64,
+    }
+
+    impl Curve for Approaching {
+        fn at(&self, unknowns: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+            let (x, t) = (unknowns[0], unknowns[1]);
+            let residual = DVector::from_element(1, x - 1.0 + (-t).exp());
+            (t <= self.until)
+                .then(|| (residual, DMatrix::from_row_slice(1, 2, &[1.0, -(-t).exp()])))
+        }
+
+        fn scale(&self, _: &DVector<f64>) -> DVector<f64> {
+            DVector::from_element(2, 1.0)
+        }
+    }
+
+    fn approached(until: f64, to: f64) -> Result<Vec<DVector<f64>>, Lost> {
+        follow(&Approaching { until }, DVector::zeros(2), 0, to, &|_| ())
+    }
+
+    #[test]
+    fn a_curve_ends_at_its_end() {
+        let points = approached(f64::INFINITY, 0.9).unwrap();
+        let last = points.last().unwrap();
+        assert_eq!(last[0], 0.9);
+        assert!((last[1] - 10.0_f64.ln()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_curve_that_comes_to_no_end_is_left() {
+        let lost = approached(f64::INFINITY, 1.5).unwrap_err();
+        assert!(lost.is_too_long && lost.points > 1000);
+    }
+
+    #[test]
+    fn a_curve_that_breaks_off_is_left_there() {
+        let lost = approached(0.7, 0.9).unwrap_err();
+        assert!(!lost.is_too_long && lost.points > 5);
+        assert!((lost.last[1] - 0.7).abs() < 1e-6, "{lost:?}");
+    }
 }

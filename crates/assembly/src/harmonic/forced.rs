@@ -63,7 +63,7 @@ impl Forced<'_, '_> {
         let motion = unknowns.as_slice().get(..problem.size())?;
         let (_, _, forces) = problem.balance(motion, omega, 0.0, &self.loads)?;
         let linear = problem.linear(omega, 0.0, &self.loads)?;
-        let harmonics = problem.sampling.orders.len();
+        let harmonics = problem.sampling.orders().len();
         let all: Vec<DVector<Complex64>> = (0..harmonics)
             .map(|own| problem.outputs(&linear, &forces, own))
             .collect();

@@ -20,13 +20,14 @@ impl<'f, 'p, 'm> Grown<'f, 'p, 'm> {
         Self { forced, omega }
     }
 
-    /// The first motion under the whole loads on the way from small ones, with the frequency behind it.
-    pub(super) fn to_full_load(&self) -> Option<DVector<f64>> {
+    /// The first motion under the whole loads on the way from small ones, with the frequency behind it. `on_the_way` is called again
+    /// and again.
+    pub(super) fn to_full_load(&self, on_the_way: &dyn Fn()) -> Option<DVector<f64>> {
         let size = self.forced.problem.size();
         let mut start = self.forced.at_load(SMALL).linear(self.omega)?;
         start[size] = SMALL;
         let start = point(self, &start, size)?;
-        let points = follow(self, start, size, 1.0, &|_| ()).ok()?;
+        let points = follow(self, start, size, 1.0, &|_| on_the_way()).ok()?;
         let mut last = points.into_iter().next_back()?;
         let is_there = last[size] == 1.0;
         last[size] = self.omega;

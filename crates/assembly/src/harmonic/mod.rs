@@ -19,11 +19,11 @@ use num_complex::Complex64;
 use crate::error::AssemblyError;
 use crate::model::AssemblyModel;
 use condensed::{At, Condensed, Dynamic};
-use follow::{follow, point};
+use follow::{Lost, follow, point};
 use forced::Forced;
 use free::Free;
 use grown::Grown;
-use sampling::Sampling;
+use sampling::{Forces, Sampling};
 
 /// Part of the frequency by which it is varied for the derivatives of what is linear.
 const VARIED: f64 = 1e-6;
@@ -62,7 +62,8 @@ impl AssemblyModel {
     /// harmonics up to the highest.
     ///
     /// # Errors
-    /// [`AssemblyError::NotBalanced`] where no solution is found, [`AssemblyError::Law`] where a joint gives no law.
+    /// [`AssemblyError::NotBalanced`] where no solution is found, [`AssemblyError::CurveStuck`] and [`AssemblyError::CurveTooLong`]
+    /// where the curve does not come to its end, [`AssemblyError::Law`] where a joint gives no law.
     pub fn forced_response(
         &self,
         loads: &[Complex64],
@@ -78,13 +79,10 @@ impl AssemblyModel {
         let omega = TAU * from_hz;
         let start = forced
             .in_parts(omega)
-            .or_else(|| Grown::new(&forced, omega).to_full_load());
+            .or_else(|| Grown::new(&forced, omega).to_full_load(&|| progress(0.0)));
         let start = start.ok_or_else(|| not_balanced(from_hz))?;
         let found = follow(&forced, start, problem.size(), TAU * to_hz, progress);
-        let points = found.map_err(|lost| {
-            let last = lost.points.last().map_or(omega, |own| own[problem.size()]);
-            not_balanced(last / TAU)
-        })?;
+        let points = found.map_err(|lost| no_farther(&lost, problem.size()))?;
         let all = points.iter().map(|unknowns| forced.outputs(unknowns));
         all.collect::<Option<_>>()
             .ok_or_else(|| not_balanced(to_hz))
@@ -127,10 +125,7 @@ impl AssemblyModel {
         let start =
             point(&free, &start, size + 2).ok_or_else(|| not_balanced(linear.frequency_hz))?;
         let found = follow(&free, start, size + 2, to.ln(), progress);
-        let points = found.map_err(|lost| {
-            let last = lost.points.last().map_or(0.0, |own| own[size]);
-            not_balanced(last / TAU)
-        })?;
+        let points = found.map_err(|lost| no_farther(&lost, size))?;
         let point = |own: &DVector<f64>| FreePoint {
             amplitude: own[size + 2].exp(),
             frequency_hz: own[size] / TAU,
@@ -144,9 +139,26 @@ fn not_balanced(frequency_hz: f64) -> AssemblyError {
     AssemblyError::NotBalanced { frequency_hz }
 }
 
+/// Why a curve with its frequency at this place does not come to its end.
+fn no_farther(lost: &Lost, place: usize) -> AssemblyError {
+    let (frequency_hz, points) = (lost.last[place] / TAU, lost.points);
+    match lost.is_too_long {
+        true => AssemblyError::CurveTooLong {
+            frequency_hz,
+            points,
+        },
+        false => AssemblyError::CurveStuck {
+            frequency_hz,
+            points,
+        },
+    }
+}
+
 /// What is balanced.
 struct Problem<'m> {
     condensed: Condensed<'m>,
+    /// Of each DOF that has laws.
+    forces: Vec<Forces>,
     sampling: Sampling,
 }
 
@@ -161,10 +173,11 @@ impl<'m> Problem<'m> {
         if condensed.laws.is_empty() {
             return Err(AssemblyError::NothingNonlinear);
         }
-        let remembers = condensed.laws.iter().any(|(_, laws)| laws.have_memory());
+        let forces = condensed.laws.iter().map(|(_, laws)| Forces::of(laws));
         Ok(Self {
+            forces: forces.collect(),
             condensed,
-            sampling: Sampling::new(highest_harmonic, remembers),
+            sampling: Sampling::new(highest_harmonic)?,
         })
     }
 
@@ -175,7 +188,7 @@ impl<'m> Problem<'m> {
 
     fn linear(&self, omega: f64, ratio: f64, loads: &DVector<Complex64>) -> Option<Linear> {
         let none = DVector::zeros(loads.len());
-        let orders = self.sampling.orders.iter();
+        let orders = self.sampling.orders().iter();
         let all = orders.map(|&order| {
             let at = At {
                 frequency_rad_per_s: order as f64 * omega,
@@ -247,7 +260,7 @@ impl<'m> Problem<'m> {
         }
         let per_dof = self.sampling.size();
         let mut forces = vec![0.0; size];
-        for (dof, (_, laws)) in self.condensed.laws.iter().enumerate() {
+        for (dof, laws) in self.forces.iter().enumerate() {
             let own = dof * per_dof..(dof + 1) * per_dof;
             let force = self.sampling.force(laws, &motion[own.clone()], omega);
             for (i, place) in own.clone().enumerate() {
@@ -279,3 +292,6 @@ impl<'m> Problem<'m> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

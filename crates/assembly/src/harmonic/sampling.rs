@@ -1,29 +1,48 @@
-//! The force of a joint's laws on one degree of freedom over a period of its motion, by alternating frequency and time.
+//! The force of a joint's laws on one degree of freedom over a period of its motion.
 //!
-//! T. M. Cameron, J. H. Griffin, J. Appl. Mech. 56 (1989) 149. All laws are odd, f(−r, −ṙ) = −f(r, ṙ), so that odd harmonics are
-//! balanced among themselves. With τ = ωt the motion is r = Σ aₖ cos kτ + bₖ sin kτ.
+//! That of laws which remember nothing is sampled (alternating frequency and time: T. M. Cameron, J. H. Griffin, J. Appl. Mech. 56
+//! (1989) 149), that of the others integrated from turn to turn ([`Remembering`]). All laws are odd, f(−r, −ṙ) = −f(r, ṙ), so that
+//! odd harmonics are balanced among themselves. With τ = ωt the motion is r = Σ aₖ cos kτ + bₖ sin kτ.
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::law::{DOF_AT_REST, DofLaws};
-use bolted_joint_dynamics::{DofMemory, Dual};
+use bolted_joint_dynamics::Dual;
+use bolted_joint_dynamics::law::{DOF_AT_REST, DofLaws, FORGETFUL_PARAMETER_COUNT};
+use bolted_joint_harmonic::{HarmonicError, Harmonics, Remembering};
 use nalgebra::DMatrix;
 
 /// Samples for each harmonic: those of a force of ninth degree alias only into what is not balanced.
 const SAMPLES_A_HARMONIC: usize = 12;
-/// Samples of a law that remembers: its corners leave an error of the square of their distance.
-const SAMPLES_OF_FRICTION: usize = 2048;
 /// Steps of Newton's method from the largest sample to what is largest.
 const NEWTON_STEPS: usize = 4;
+
 /// The harmonics that are balanced, with cosines and sines of a period.
 #[derive(Clone, Debug)]
 pub(super) struct Sampling {
-    /// 1, 3, 5 …
-    pub(super) orders: Vec<usize>,
+    harmonics: Harmonics,
     /// Columns cos kτ, sin kτ of each order, a row for each sample.
     waves: DMatrix<f64>,
     /// Their derivatives with respect to τ.
     slopes: DMatrix<f64>,
+}
+
+/// The laws on one degree of freedom, by what they remember.
+#[derive(Clone, Debug)]
+pub(super) struct Forces {
+    forgetful: Option<DofLaws<Dual<2>>>,
+    remembering: Option<Remembering>,
+}
+
+impl Forces {
+    pub(super) fn of(laws: &DofLaws) -> Self {
+        let mut parameters = laws.parameters().map(Dual::from);
+        parameters[FORGETFUL_PARAMETER_COUNT..].fill(Dual::from(0.0));
+        let forgetful = DofLaws::new(parameters);
+        Self {
+            forgetful: (!forgetful.are_none()).then_some(forgetful),
+            remembering: Remembering::of(laws),
+        }
+    }
 }
 
 /// Coefficients of the force, and their derivatives.
@@ -38,13 +57,14 @@ pub(super) struct Force {
 }
 
 impl Sampling {
-    /// Odd harmonics up to `highest`, for laws that remember or for others.
-    pub(super) fn new(highest: usize, remembers: bool) -> Self {
-        let orders: Vec<usize> = (1..=highest).step_by(2).collect();
-        let count = match remembers {
-            true => SAMPLES_OF_FRICTION,
-            false => SAMPLES_A_HARMONIC * (highest + 1),
-        };
+    /// Odd harmonics up to `highest`.
+    ///
+    /// # Errors
+    /// [`HarmonicError::Harmonics`] if that is none, or more than make sense.
+    pub(super) fn new(highest: usize) -> Result<Self, HarmonicError> {
+        let harmonics = Harmonics::odd(highest)?;
+        let orders = harmonics.orders();
+        let count = SAMPLES_A_HARMONIC * (highest + 1);
         let angle =
             |sample: usize, order: usize| TAU * ((sample * order) % count) as f64 / count as f64;
         let wave = |sample: usize, column: usize| {
@@ -65,23 +85,28 @@ impl Sampling {
                     cosine
                 }
         };
-        Self {
+        Ok(Self {
             waves: DMatrix::from_fn(count, 2 * orders.len(), wave),
             slopes: DMatrix::from_fn(count, 2 * orders.len(), slope),
-            orders,
-        }
+            harmonics,
+        })
+    }
+
+    /// 1, 3, 5 …
+    pub(super) fn orders(&self) -> &[usize] {
+        self.harmonics.orders()
     }
 
     /// Unknowns of one degree of freedom.
     pub(super) fn size(&self) -> usize {
-        2 * self.orders.len()
+        2 * self.orders().len()
     }
 
     /// The largest magnitude over a period of what has these coefficients.
     pub(super) fn largest(&self, coefficients: &[f64]) -> f64 {
         // value, slope and curvature
         let at = |angle: f64| {
-            let pairs = self.orders.iter().zip(coefficients.chunks_exact(2));
+            let pairs = self.orders().iter().zip(coefficients.chunks_exact(2));
             pairs.fold([0.0; 3], |[value, slope, curvature], (&order, own)| {
                 let k = order as f64;
                 let (sine, cosine) = (k * angle).sin_cos();
@@ -93,7 +118,7 @@ impl Sampling {
                 ]
             })
         };
-        let count = SAMPLES_A_HARMONIC * (self.orders.len() * 2 + 1);
+        let count = SAMPLES_A_HARMONIC * (self.orders().len() * 2 + 1);
         let spacing = TAU / count as f64;
         // half a period is enough of odd harmonics
         let angles = (0..=count / 2).map(|sample| spacing * sample as f64);
@@ -110,21 +135,35 @@ impl Sampling {
     }
 
     /// The force of these laws at this motion of the frequency ω (rad/s).
-    pub(super) fn force(&self, laws: &DofLaws, motion: &[f64], omega: f64) -> Force {
-        if laws.have_memory() {
-            return self.friction(laws, motion, omega);
-        }
-        let along = DofLaws::new(laws.parameters().map(Dual::<2>::from));
+    pub(super) fn force(&self, laws: &Forces, motion: &[f64], omega: f64) -> Force {
         let size = self.size();
         let mut force = Force {
             coefficients: vec![0.0; size],
             by_motion: DMatrix::zeros(size, size),
             by_frequency: vec![0.0; size],
         };
+        if let Some(laws) = &laws.forgetful {
+            self.sample(laws, motion, omega, &mut force);
+        }
+        if let Some(laws) = &laws.remembering {
+            // places alone matter: the frequency changes nothing
+            laws.add_harmonics(
+                &self.harmonics,
+                motion,
+                &mut force.coefficients,
+                &mut force.by_motion,
+            );
+        }
+        force
+    }
+
+    /// Adds that of laws that remember nothing.
+    fn sample(&self, laws: &DofLaws<Dual<2>>, motion: &[f64], omega: f64, force: &mut Force) {
+        let size = self.size();
         for sample in 0..self.waves.nrows() {
             let r = self.at(&self.waves, motion, sample);
             let slope = self.at(&self.slopes, motion, sample);
-            let f = along.load(
+            let f = laws.load(
                 &DOF_AT_REST,
                 Dual::along(r, 0),
                 Dual::along(omega * slope, 1),
@@ -141,62 +180,6 @@ impl Sampling {
                 }
             }
         }
-        force
-    }
-
-    /// That of laws that remember.
-    fn friction(&self, laws: &DofLaws, motion: &[f64], omega: f64) -> Force {
-        let size = self.size();
-        let along = DofLaws::new(laws.parameters().map(Dual::<1>::from));
-        // along each of the motion's coefficients, and then along ω
-        let columns: Vec<Vec<Dual<1>>> = (0..=size)
-            .map(|column| {
-                let change = |sample: usize| match column == size {
-                    true => [0.0, self.at(&self.slopes, motion, sample)],
-                    false => [
-                        self.waves[(sample, column)],
-                        omega * self.slopes[(sample, column)],
-                    ],
-                };
-                self.followed(&along, motion, omega, change)
-            })
-            .collect();
-        let value = |i: usize| columns[size][i].value;
-        Force {
-            coefficients: (0..size).map(value).collect(),
-            by_motion: DMatrix::from_fn(size, size, |i, j| columns[j][i].change[0]),
-            by_frequency: columns[size].iter().map(|own| own.change[0]).collect(),
-        }
-    }
-
-    /// Coefficients of the force once what the laws remember repeats itself, with their change along that of r and ṙ.
-    fn followed(
-        &self,
-        laws: &DofLaws<Dual<1>>,
-        motion: &[f64],
-        omega: f64,
-        change: impl Fn(usize) -> [f64; 2],
-    ) -> Vec<Dual<1>> {
-        let mut memory: DofMemory<Dual<1>> = DOF_AT_REST.map(Dual::from);
-        let mut coefficients = vec![Dual::from(0.0); self.size()];
-        // a period leads onto the loop
-        for is_counted in [false, true] {
-            for sample in 0..self.waves.nrows() {
-                let [r_change, v_change] = change(sample);
-                let r = Dual::new(self.at(&self.waves, motion, sample), [r_change]);
-                let slope = self.at(&self.slopes, motion, sample);
-                let v = Dual::new(omega * slope, [v_change]);
-                let f = laws.load(&memory, r, v);
-                laws.commit(&mut memory, r, v);
-                if is_counted {
-                    for (i, own) in coefficients.iter_mut().enumerate() {
-                        let weight = Dual::from(self.weight() * self.waves[(sample, i)]);
-                        *own = *own + weight * f;
-                    }
-                }
-            }
-        }
-        coefficients
     }
 
     fn weight(&self) -> f64 {
@@ -210,51 +193,5 @@ impl Sampling {
             .zip(coefficients)
             .map(|(wave, own)| wave * own)
             .sum()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use bolted_joint_dynamics::law::{DOF_PARAMETER_COUNT, dof_parameters};
-
-    use super::*;
-
-    fn slider(stiffness: f64, slip_force: f64) -> DofLaws {
-        let mut parameters = [0.0; DOF_PARAMETER_COUNT];
-        for (own, (law, parameter)) in parameters.iter_mut().zip(dof_parameters()) {
-            if law.name == "jenkins" && law.number == 1 {
-                *own = match parameter.key {
-                    "stiffness" => stiffness,
-                    _ => slip_force,
-                };
-            }
-        }
-        DofLaws::new(parameters)
-    }
-
-    /// Where no sample is at a corner, central differences.
-    #[test]
-    fn friction_s_derivatives_are_those_of_its_coefficients() {
-        let sampling = Sampling::new(3, true);
-        let laws = slider(2e6, 60.0);
-        let motion = [1.1e-4, -2.3e-5, 4.1e-6, 3.3e-6];
-        let exact = sampling.force(&laws, &motion, 700.0);
-        for column in 0..motion.len() {
-            let part = 1e-11;
-            let at = |change: f64| {
-                let mut own = motion;
-                own[column] += change;
-                sampling.force(&laws, &own, 700.0).coefficients
-            };
-            let (above, below) = (at(part), at(-part));
-            for i in 0..motion.len() {
-                let expected = (above[i] - below[i]) / (2.0 * part);
-                let found = exact.by_motion[(i, column)];
-                assert!(
-                    (found - expected).abs() < 2e-3 * 2e6,
-                    "{i} {column}: {found} {expected}"
-                );
-            }
-        }
     }
 }

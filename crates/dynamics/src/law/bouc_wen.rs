@@ -15,7 +15,7 @@ use super::{
     slider_parameters::{SLIP_FORCE, STIFFNESS},
 };
 use crate::number::Number;
-use integral::{Branch, Way};
+use integral::Branch;
 
 /// Places of what is remembered: the load, and beside what is a variable the place and the direction of the latest
 /// motion.
@@ -100,8 +100,8 @@ impl<N: Number> BoucWen<N> {
         }
     }
 
-    /// The way from the memory's place to r.
-    fn way<M: Number + Into<N>>(&self, memory: &[M], r: N) -> (f64, Way<N>) {
+    /// The way from the memory's place to r: its direction, w before it, and its length.
+    fn start<M: Number + Into<N>>(&self, memory: &[M], r: N) -> (f64, N, N) {
         let number = |place: usize| memory.get(place).map_or(N::ZERO, |&number| number.into());
         let way = r - number(PLACE);
         let sign = match way.value() {
@@ -112,7 +112,7 @@ impl<N: Number> BoucWen<N> {
         };
         let before = N::from(sign) * number(LOAD) / self.slip_force;
         let length = N::from(sign) * way * self.stiffness / self.slip_force;
-        (sign, self.branch().way(self.held(before), length))
+        (sign, self.held(before), length)
     }
 }
 
@@ -179,8 +179,8 @@ impl<N: Number> Law<N> for BoucWen<N> {
         if !self.is_there() {
             return N::ZERO;
         }
-        let (sign, way) = self.way(memory, r);
-        N::from(sign) * self.slip_force * way.after
+        let (sign, before, length) = self.start(memory, r);
+        N::from(sign) * self.slip_force * self.branch().load(before, length)
     }
 
     fn stored_energy<M: Number + Into<N>>(&self, memory: &[M], r: N) -> N {
@@ -229,7 +229,8 @@ impl<N: Number> Law<N> for BoucWen<N> {
         if r.value() == memory[PLACE].value() {
             return released;
         }
-        let (sign, way) = self.way(memory, r);
+        let (sign, before, length) = self.start(memory, r);
+        let way = self.branch().way(before, length);
         memory[LOAD] = N::from(sign) * self.slip_force * way.after;
         memory[PLACE] = r;
         memory[DIRECTION] = N::from(sign);

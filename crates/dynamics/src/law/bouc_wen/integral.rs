@@ -45,6 +45,46 @@ const AT_LIMIT: f64 = 1e-15;
 impl<N: Number> Branch<N> {
     /// The way of this length from w.
     pub(super) fn way(&self, w: N, length: N) -> Way<N> {
+        self.way_by::<true>(w, length)
+    }
+
+    /// w at the end of the way of this length from w.
+    pub(super) fn load(&self, w: N, length: N) -> N {
+        self.way_by::<false>(w, length).after
+    }
+
+    /// That, with its heat or without.
+    fn way_by<const IS_HEAT: bool>(&self, w: N, length: N) -> Way<N> {
+        let [start, x] = [w, length].map(Number::value);
+        let plain = self.plain();
+        if x == 0.0 || !self.is_fixed() || plain.rate(start) <= AT_LIMIT {
+            return self.way_of_all::<IS_HEAT>(w, length);
+        }
+        let way = plain.way_of_all::<IS_HEAT>(start, x);
+        let (by_start, by_length) = (w - N::from(start), length - N::from(x));
+        let mut after = N::from(way.after);
+        if !(by_start.is_zero() && by_length.is_zero()) {
+            // where the start and the length alone change: dw′ = (dw′/dx) (dx + dw/(dw/dx)), as the equation knows no x
+            let slope = plain.rate(way.after);
+            let share = slope / plain.rate(start);
+            after = after + N::from(slope) * by_length + N::from(share) * by_start;
+        }
+        Way {
+            after,
+            heat: way.heat,
+        }
+    }
+
+    /// Whether the parameters do not change.
+    fn is_fixed(&self) -> bool {
+        let parameters = [self.exponent, self.loading, self.unloading];
+        parameters
+            .iter()
+            .all(|&own| (own - N::from(own.value())).is_zero())
+    }
+
+    /// The way, whatever changes.
+    fn way_of_all<const IS_HEAT: bool>(&self, w: N, length: N) -> Way<N> {
         if length.value() == 0.0 {
             // w moves with the length
             return Way {
@@ -57,14 +97,14 @@ impl<N: Number> Branch<N> {
         }
         let plain = self.plain();
         if w.value() >= 0.0 {
-            return self.loaded(w, length);
+            return self.loaded::<IS_HEAT>(w, length);
         }
         // until there is no load left
         let whole = self.unloading_way(-w);
         if length.value() >= whole.value() {
-            let loaded = self.loaded(N::ZERO, length - whole);
+            let loaded = self.loaded::<IS_HEAT>(N::ZERO, length - whole);
             return Way {
-                heat: loaded.heat + plain.unloading_heat(-w.value()),
+                heat: loaded.heat + heat_where::<IS_HEAT>(|| plain.unloading_heat(-w.value())),
                 ..loaded
             };
         }
@@ -74,7 +114,8 @@ impl<N: Number> Branch<N> {
         let missing = self.unloading_way(N::from(at)) - left;
         let slope = 1.0 + plain.unloading * at.powf_of(plain.exponent);
         let after = N::from(at) - missing * N::from(slope);
-        let heat = plain.unloading_heat(-w.value()) - plain.unloading_heat(at);
+        let heat =
+            heat_where::<IS_HEAT>(|| plain.unloading_heat(-w.value()) - plain.unloading_heat(at));
         Way {
             after: -after,
             heat: heat.max(0.0),
@@ -140,7 +181,7 @@ impl<N: Number> Branch<N> {
     }
 
     /// The way of this length from w ≥ 0.
-    fn loaded(&self, w: N, length: N) -> Way<N> {
+    fn loaded<const IS_HEAT: bool>(&self, w: N, length: N) -> Way<N> {
         let plain = self.plain();
         let one = N::from(1.0);
         let m = self.loading * w.powf(self.exponent);
@@ -160,8 +201,9 @@ impl<N: Number> Branch<N> {
             };
         }
         let target = self.loading_way(w, m) + length;
-        let (at, missing_part, heat) = plain.loaded_to(target.value());
-        let heat = (heat - plain.loading_heat(w.value(), m.value())).max(0.0);
+        let (at, missing_part, heat) = plain.loaded_to::<IS_HEAT>(target.value());
+        let before = heat_where::<IS_HEAT>(|| plain.loading_heat(w.value(), m.value()));
+        let heat = (heat - before).max(0.0);
         if missing_part <= AT_LIMIT {
             return Way {
                 after: self.limit(),
@@ -221,7 +263,7 @@ impl<N: Number> Branch<N> {
 
 impl Branch<f64> {
     /// Where x from no load is reached: w, 1 − m there, and the heat of all of it.
-    fn loaded_to(&self, target: f64) -> (f64, f64, f64) {
+    fn loaded_to<const IS_HEAT: bool>(&self, target: f64) -> (f64, f64, f64) {
         let a = 1.0 / self.exponent;
         if self.loading == 0.0 {
             return (target, 1.0, 0.0);
@@ -241,7 +283,8 @@ impl Branch<f64> {
                 }
             }
             let m = self.loading * w.powf_of(self.exponent);
-            return (w, 1.0 - m, self.loading_heat(w, m));
+            let heat = heat_where::<IS_HEAT>(|| self.loading_heat(w, m));
+            return (w, 1.0 - m, heat);
         }
         // over θ = −ln ε, in which x is concave
         let (scale, ln_2) = (a * limit, std::f64::consts::LN_2);
@@ -256,7 +299,9 @@ impl Branch<f64> {
             }
         }
         let left = elementary::exp(-theta);
-        let heat = self.heat_to_half() + a * limit * limit * (theta - ln_2 + series(2.0 * a, left));
+        let heat = heat_where::<IS_HEAT>(|| {
+            self.heat_to_half() + a * limit * limit * (theta - ln_2 + series(2.0 * a, left))
+        });
         (limit * (1.0 - left).powf_of(a), left, heat)
     }
 
@@ -300,6 +345,11 @@ impl Branch<f64> {
         }
         y
     }
+}
+
+/// Heat where it is asked for.
+fn heat_where<const IS_HEAT: bool>(heat: impl FnOnce() -> f64) -> f64 {
+    if IS_HEAT { heat() } else { 0.0 }
 }
 
 /// ₂F₁(1, b; 1+b; m) for m from −∞ to ½.

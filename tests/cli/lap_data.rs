@@ -195,7 +195,7 @@ fn a_run_from_peak_to_peak_is_named() {
         &[
             "warning: 2 leaves ",
             "times what the other runs leave",
-            "responses from peak to peak: else it would leave 1.0 times as much",
+            "responses from peak to peak, without which it would leave 1.0 times",
         ],
     );
 }

@@ -3,8 +3,10 @@
 //! A run in another unit draws the estimate towards itself, so that all runs seem to be off. Without it the others agree, and it
 //! stands far from what they have in common.
 
+use std::fmt;
+
 use super::backbone::BackboneRun;
-use super::data::{SineLine, SineRun, Use};
+use super::data::{SineLine, SineRun, Use, wrapped};
 use super::fit::{self, Data, Fit, Kind, chi_squared_at};
 use super::model::{Model, ResponseUnknown, Values};
 use super::slip::{Quantity, Slip};
@@ -36,18 +38,35 @@ pub(super) struct OddRun {
     pub(super) name: String,
     /// What it leaves in what the others leave.
     pub(super) times: f64,
-    /// The slip without which it would be like the others, and what it would then leave.
-    pub(super) slip: Option<(Slip, f64)>,
+    /// What seems to be wrong with it, and what it would leave without, in what the others leave.
+    pub(super) cause: Option<(Cause, f64)>,
+}
+
+/// What is wrong with a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Cause {
+    /// Its numbers.
+    Slip(Slip),
+    /// The responses are so late, s.
+    Delay(f64),
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Slip(slip) => f.write_str(slip.words),
+            Self::Delay(late_s) => write!(f, "a delay of {:.2} ms", 1e3 * late_s),
+        }
+    }
 }
 
 impl Misfit {
     /// In sentences.
     pub(super) fn told(&self) -> Vec<String> {
         let of_run = self.run.as_ref().map(|run| {
-            let why = match &run.slip {
-                Some((slip, times)) => format!(
-                    "it seems to have {}: else it would leave {times:.1} times as much",
-                    slip.words
+            let why = match &run.cause {
+                Some((cause, times)) => format!(
+                    "it seems to have {cause}, without which it would leave {times:.1} times what they leave"
                 ),
                 None => "look at its units, at peak or r.m.s., at its phase and its delay, or the law does not hold for its amplitudes"
                     .to_owned(),
@@ -59,7 +78,7 @@ impl Misfit {
         });
         let of_all = self.slip.as_ref().map(|(slip, times)| {
             format!(
-                "the data seem to have {}: else the law would leave {times:.1} times the noise",
+                "the data seem to have {}, without which the law would leave {times:.1} times the noise",
                 slip.words
             )
         });
@@ -124,6 +143,55 @@ impl Search<'_> {
         let data = runs.data();
         let chi_squared = chi_squared_at(&self.model, data, &self.study.noise, values);
         (chi_squared / data.count().max(1) as f64).max(ROUNDING)
+    }
+}
+
+impl Search<'_> {
+    /// What is wrong with a run that leaves so much at these values, where others leave a `level`.
+    fn cause(
+        &self,
+        run: &Runs<'_>,
+        values: &Values,
+        [left, level]: [f64; 2],
+    ) -> Option<(Cause, f64)> {
+        let of_slip = |slip: Slip| {
+            let curves = undone_in(&slip, &run.backbones)?;
+            let lines = run.lines.iter().map(|line| slip.undone_in_line(line));
+            let undone = Runs {
+                lines: lines.collect(),
+                sines: Vec::new(),
+                backbones: curves.iter().collect(),
+            };
+            Some((Cause::Slip(slip), self.left_of(&undone, values)))
+        };
+        let slips = Slip::ALL.into_iter().filter_map(of_slip);
+        let all = slips.chain(self.delay(run, values));
+        let enough = all.filter(|(_, now)| now * FALLS < left);
+        let best = enough.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        Some((best.0, (best.1 / level).sqrt()))
+    }
+
+    /// The delay that explains most of the phases of a sine, and what is left without it.
+    fn delay(&self, run: &Runs<'_>, values: &Values) -> Option<(Cause, f64)> {
+        (!run.lines.is_empty()).then_some(())?;
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for line in &run.lines {
+            let amplitude_m = self.model.relative_amplitude(values, line);
+            let (computed, _) = self.model.receptance(values, amplitude_m, line.omega);
+            sum -= line.omega * wrapped(line.phase_rad - computed.arg());
+            squares += line.omega * line.omega;
+        }
+        let late_s = sum / squares;
+        let lines = run.lines.iter().map(|line| SineLine {
+            phase_rad: wrapped(line.phase_rad + line.omega * late_s),
+            ..*line
+        });
+        let undone = Runs {
+            lines: lines.collect(),
+            sines: Vec::new(),
+            backbones: Vec::new(),
+        };
+        Some((Cause::Delay(late_s), self.left_of(&undone, values)))
     }
 }
 
@@ -218,27 +286,10 @@ fn odd_run(search: &Search<'_>, estimate: &Fit) -> Option<OddRun> {
         (None, Some(run)) => run.name.clone(),
         (None, None) => return None,
     };
-    let undone = Slip::ALL.into_iter().filter_map(|slip| {
-        let curves = undone_in(&slip, &own.backbones)?;
-        let own = Runs {
-            lines: own
-                .lines
-                .iter()
-                .map(|line| slip.undone_in_line(line))
-                .collect(),
-            sines: Vec::new(),
-            backbones: curves.iter().collect(),
-        };
-        let has_any = !own.lines.is_empty() && slip.of != Quantity::Damping
-            || !own.backbones.is_empty() && slip.of != Quantity::Force;
-        let now = search.left_of(&own, &fit.values);
-        (has_any && now * FALLS < left).then(|| (slip, (now / level).sqrt()))
-    });
-    let slip = undone.min_by(|(_, one), (_, other)| one.total_cmp(other));
     Some(OddRun {
         name,
         times: (left / level).sqrt(),
-        slip,
+        cause: search.cause(&own, &fit.values, [left, level]),
     })
     .filter(|run| run.times * run.times > FALLS)
 }

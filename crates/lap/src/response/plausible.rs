@@ -16,8 +16,9 @@ const MOST_M: f64 = 0.01;
 const FROM_HZ: f64 = 20.0;
 /// Resonance of the relative motion, Hz, below which nothing bolted is.
 const LEAST_HZ: f64 = 1.0;
-/// Masses of bodies that are bolted, kg.
+/// Masses of bodies that are bolted, kg, and the stiffness, N/m, below which so light ones are none.
 const MASSES_KG: std::ops::Range<f64> = 0.01..1e5;
+const LEAST_N_PER_M: f64 = 1e4;
 
 /// One amplitude of a run: m, and rad/s.
 type Amplitude = (f64, f64);
@@ -108,17 +109,23 @@ impl LapResponse {
         }
         let mut estimates = self.estimates.iter();
         let mass = estimates.find(|own| own.unknown == ResponseUnknown::Mass);
-        let mass = mass.filter(|own| own.is_identified && !MASSES_KG.contains(&own.value));
-        told.extend(mass.map(|own| {
-            let slip = match own.value < MASSES_KG.start {
-                true => "are the forces in kN, or the responses in mm?",
-                false => "are the forces in mN, or the responses in km?",
-            };
-            format!(
-                "m = {:.2e} kg, and bodies that are bolted have {:.0e} to {:.0e} kg: {slip}",
-                own.value, MASSES_KG.start, MASSES_KG.end
-            )
-        }));
+        let Some(mass) = mass.filter(|own| own.is_identified) else {
+            return told;
+        };
+        let stiffness = values.relative_stiffness();
+        if mass.value < MASSES_KG.start && stiffness < LEAST_N_PER_M {
+            told.push(format!(
+                "m = {:.2e} kg beside a stiffness of {stiffness:.2e} N/m, and nothing bolted is both so light and so soft: are the \
+                 forces in kN, or the responses in mm?",
+                mass.value
+            ));
+        }
+        if mass.value > MASSES_KG.end {
+            told.push(format!(
+                "m = {:.2e} kg, and bodies that are bolted have {:.0e} kg at most: are the forces in mN?",
+                mass.value, MASSES_KG.end
+            ));
+        }
         told
     }
 }

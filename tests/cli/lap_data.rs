@@ -150,6 +150,102 @@ fn degrees_in_a_column_of_radian_are_refused() {
     bench.done(IDENTIFY);
 }
 
+#[test]
+fn radian_in_a_column_of_degrees_is_refused() {
+    let bench = Bench::new();
+    bench.write("run.csv", csv(&rows("b", 1.0, RANGE, 1)));
+    bench.edit("run.csv", "phase_rad", "phase_deg");
+    bench.write("study.toml", study("b", &[("run.csv", "fit")]));
+    bench.refused(IDENTIFY, &["run.csv", "`phase_deg`", "`phase_rad`"]);
+    // far from all resonances phases of few degrees are right
+    let own: Vec<[f64; 4]> = rows("b", 1.0, [20.0, 40.0], 1)
+        .into_iter()
+        .map(|[hz, force_n, size, phase]| [hz, force_n, size, phase.to_degrees()])
+        .collect();
+    assert!(own.iter().all(|row| row[3].abs() < 3.2));
+    bench.write("run.csv", csv(&own).replace("phase_rad", "phase_deg"));
+    let outcome = bench.run(IDENTIFY);
+    assert!(
+        !outcome.stderr.contains("probably rad"),
+        "{}",
+        outcome.stderr
+    );
+}
+
+/// No noise is stated: one of three runs twice as large is named, with what it would be if it were halved, and the result is
+/// unusable. The factor is the ratio of 100 %, or of 2 at every line, to noise of 0.5 %.
+#[test]
+fn a_run_from_peak_to_peak_is_named() {
+    let bench = Bench::new();
+    let files = ["1.csv", "2.csv", "3.csv"];
+    for (level, file) in files.iter().enumerate() {
+        let mut own = rows("b", 1.0 + level as f64, RANGE, level as u64);
+        for row in &mut own {
+            row[2] *= if level == 1 { 2.0 } else { 1.0 };
+        }
+        bench.write(file, csv(&own));
+    }
+    bench.write("study.toml", study("b", &files.map(|file| (file, "fit"))));
+    let outcome = bench.unusable(
+        IDENTIFY,
+        &["the noise of 1 % that is taken where none is stated"],
+    );
+    has(
+        &outcome.stderr,
+        &[
+            "warning: 2 leaves ",
+            "times what the other runs leave",
+            "responses from peak to peak, without which it would leave 1.0 times",
+        ],
+    );
+}
+
+/// All responses twice as large, beside a mass that is known.
+#[test]
+fn responses_that_do_not_go_with_a_known_mass_are_told() {
+    let bench = Bench::new();
+    let mut own = rows("b", 1.0, RANGE, 1);
+    for row in &mut own {
+        row[2] *= 2.0;
+    }
+    bench.write("run.csv", csv(&own));
+    let known = format!("[known]\nm = {}\n", LAP[0]);
+    bench.write("study.toml", study("b", &[("run.csv", "fit")]) + &known);
+    let outcome = bench.unusable(IDENTIFY, &["the noise of 1 %"]);
+    has(
+        &outcome.stderr,
+        &["the data seem to have responses from peak to peak"],
+    );
+    bench.edit("study.toml", "m = 2", "m = 1");
+    bench.done(IDENTIFY);
+}
+
+/// In mm nothing contradicts the numbers: a body of 2 g moves by some mm.
+#[test]
+fn sizes_that_no_joint_has_are_warned_of() {
+    let bench = Bench::new();
+    let mut own = rows("b", 1.0, RANGE, 1);
+    let largest = own.iter().map(|row| row[2]).fold(0.0, f64::max);
+    let good = csv(&own);
+    for row in &mut own {
+        row[2] *= 1e3;
+    }
+    assert!(largest * 1e3 > 0.01);
+    bench.write("run.csv", csv(&own));
+    bench.write("study.toml", study("b", &[("run.csv", "fit")]));
+    let outcome = bench.done(IDENTIFY);
+    has(
+        &outcome.stderr,
+        &[
+            "is the response in mm",
+            "m = 2.00e-3 kg",
+            "are the forces in kN",
+        ],
+    );
+    bench.write("run.csv", good);
+    assert_eq!(bench.done(IDENTIFY).stderr, "");
+}
+
 /// A run of few lines in another unit is a minority of all lines, and yet nothing that the lap does.
 #[test]
 fn a_run_that_has_nothing_to_do_with_the_others_is_not_to_be_relied_on() {
@@ -265,6 +361,27 @@ fn a_clipped_decay_is_refused() {
     bench.refused(
         IDENTIFY,
         &["decay.csv", "clipped", "exactly 3e-5", "less gain"],
+    );
+}
+
+/// The same record with its times in ms is that of a joint at 0.2 Hz.
+#[test]
+fn times_in_milliseconds_are_warned_of() {
+    let bench = Bench::new();
+    let in_ms = |line: &str| match line.split_once(',') {
+        Some((time, value)) if !time.starts_with('t') => {
+            let time: f64 = time.parse().unwrap();
+            format!("{:.4},{value}\n", 1e3 * time)
+        }
+        _ => format!("{line}\n"),
+    };
+    let text: String = decay(5e-5, 1.0).lines().map(in_ms).collect();
+    bench.write("decay.csv", text);
+    bench.write("study.toml", of_decay(""));
+    let outcome = bench.run(IDENTIFY);
+    has(
+        &outcome.stderr,
+        &["decay: a resonance at ", "is the time in ms"],
     );
 }
 

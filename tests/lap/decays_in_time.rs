@@ -285,6 +285,59 @@ fn a_wrong_law_is_not_fitted_sample_by_sample() {
     );
 }
 
+/// One slider that sticks from the first point on that is read: it seems to be linear, and all that tells of it are samples.
+fn slips_at_first() -> Case {
+    let of_law = [SliderParameter::Stiffness, SliderParameter::SlipForce].map(slider);
+    Case {
+        name: "jenkins",
+        unknowns: [linear(), of_law.to_vec()].concat(),
+        // it slips from 100 µm on, of the release's 300 µm
+        truth: vec![K0, 6.0, 2e5, 20.0],
+        oscillator: of_one_slider,
+        samples: 7000,
+    }
+}
+
+/// Within five deviations of the truth, each of them at most 1 % of it.
+fn is_found(case: &Case, found: &LapResponse) {
+    assert_eq!(found.in_time, InTime::Fitted);
+    assert_eq!(found.model.terms.to_string(), case.name);
+    for (unknown, truth) in case.unknowns.iter().zip(&case.truth) {
+        let own = found.estimates.iter().find(|own| own.unknown == *unknown);
+        let own = own.unwrap();
+        let (error, deviation) = ((own.value - truth).abs(), own.standard_deviation);
+        assert!(error < 5.0 * deviation, "{own:?} {truth}");
+        assert!(deviation < 0.01 * truth.abs(), "{own:?} {truth}");
+    }
+}
+
+/// What is read of the record chooses another law; the samples do not, whether the study names the law or leaves it open.
+#[test]
+fn a_law_that_only_the_samples_tell_is_found() {
+    let case = slips_at_first();
+    let folder = tempfile::tempdir().unwrap();
+    let record = case.record();
+    case.study(folder.path(), &record, (1, NOISE));
+    let named = study(folder.path(), case.name, "");
+    let found = identified(&named);
+    is_found(&case, &found);
+    assert!(found.reasons_against(&named).is_empty());
+    let text = std::fs::read_to_string(&named.path).unwrap();
+    let open = text.replace("terms = [\"jenkins\"]\ncompare = false\n", "");
+    assert_ne!(text, open);
+    std::fs::write(&named.path, open).unwrap();
+    let open = LapResponseStudy::read(&named.path).unwrap();
+    let found = identified(&open);
+    is_found(&case, &found);
+    has(
+        &found.of_decays().unwrap(),
+        &["best, of which no motion follows the samples"],
+    );
+    // the comparison is one of what was read, and says nothing of samples
+    let warnings = found.warnings(&open).join("\n");
+    assert!(!warnings.contains("explain the data better"), "{warnings}");
+}
+
 /// Errors that a study states of what is read, and other data beside, are none of samples.
 #[test]
 fn what_is_stated_of_what_is_read_is_kept() {

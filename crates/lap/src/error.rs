@@ -43,6 +43,20 @@ pub enum LapError {
         /// The largest phase, rad.
         largest: f64,
     },
+    /// Phases in degrees that are radian.
+    #[error(
+        "{}: found phases from {least} to {largest} in `phase_deg` through a resonance, where they turn by most of 180, expected degrees; they \
+         are probably rad: name the column `phase_rad`",
+        path.display()
+    )]
+    Radians {
+        /// The file.
+        path: PathBuf,
+        /// The least phase, degrees.
+        least: f64,
+        /// The largest phase, degrees.
+        largest: f64,
+    },
     /// Fewer data than unknowns.
     #[error(
         "found {lines} line(s), each with two numbers beyond its amplitude, expected more than {unknowns} unknowns need; measure more lines or levels"

@@ -20,6 +20,8 @@ const READINGS: usize = 2;
 /// … and at most for the one that is chosen, until the estimate moves by less than this part of its deviations.
 const MOST_READINGS: usize = 8;
 const READ: f64 = 0.1;
+/// Polynomials that are tried on the samples of decays where the first law fails, the best by what was read.
+const MOST_POLYNOMIALS: usize = 3;
 /// Deviations within which what is read grows with the unknowns as before.
 const NEAR: f64 = 0.5;
 
@@ -57,6 +59,8 @@ pub(super) struct Candidate {
     pub(super) unrest: f64,
     /// How decays went into it.
     pub(super) in_time: InTime,
+    /// The law that explains best what was read of decays, where no motion of it leaves noise, and this one was taken instead.
+    pub(super) instead_of: Option<TermSet>,
     /// Highest harmonic of the relative motion in `fit`.
     pub(super) harmonics: usize,
     /// Backbones and decays as they were fitted.
@@ -136,16 +140,21 @@ pub(super) fn choose(
         held: candidate.fit.at_limits.iter().map(|at| at.limit).collect(),
     });
     let comparison: Vec<ModelComparison> = comparison.collect();
+    candidates.sort_by(|one, other| one.bic.total_cmp(&other.bic));
     let chosen = match &study.terms {
-        Some(own) => candidates.into_iter().find(|one| one.terms == *own),
-        None => candidates
-            .into_iter()
-            .min_by(|one, other| one.bic.total_cmp(&other.bic)),
+        Some(own) => candidates.iter().position(|one| one.terms == *own),
+        None => (!candidates.is_empty()).then_some(0),
     };
-    match chosen {
+    match chosen.map(|place| candidates.remove(place)) {
         Some(chosen) => {
             let read = read_to_the_end(study, chosen, &runs);
-            Ok((in_time(study, refined(study, read, &runs)), comparison))
+            let found = in_time(study, refined(study, read, &runs));
+            let is_lost = matches!(&found.in_time, InTime::Read(reason) if reason.is_of_law());
+            let other = match is_lost && study.terms.is_none() {
+                true => of_another_law(study, &found.terms, candidates),
+                false => None,
+            };
+            Ok((other.unwrap_or(found), comparison))
         }
         None => {
             let reason = failure.unwrap_or(LapError::NoEstimate);
@@ -232,6 +241,37 @@ fn in_time(study: &LapResponseStudy, candidate: Candidate) -> Candidate {
             ..candidate
         },
     }
+}
+
+/// The candidate whose motion follows the samples of decays best, where that of the first one does not: what is read of them
+/// leaves out what happens before the first point, and tells laws apart that little.
+fn of_another_law(
+    study: &LapResponseStudy,
+    first: &TermSet,
+    others: Vec<Candidate>,
+) -> Option<Candidate> {
+    let (with_slider, polynomials): (Vec<Candidate>, Vec<Candidate>) = others
+        .into_iter()
+        .partition(|one| one.terms.slider().is_some());
+    let (alone, beside): (Vec<Candidate>, Vec<Candidate>) = with_slider
+        .into_iter()
+        .partition(|one| one.terms.terms().is_empty());
+    let likely = polynomials.into_iter().take(MOST_POLYNOMIALS).chain(alone);
+    let of_samples = |candidate: &Candidate| {
+        let count = (candidate.fit.degrees_of_freedom + candidate.fit.information.nrows()) as f64;
+        let unknowns = candidate.fit.information.nrows() - candidate.fit.at_limits.len();
+        deviance(&candidate.fit, study.noise.is_stated) + unknowns as f64 * count.ln()
+    };
+    let best = |candidates: Vec<Candidate>| {
+        let fitted = candidates.into_iter().map(|one| in_time(study, one));
+        let fitted = fitted.filter(|one| one.in_time == InTime::Fitted);
+        fitted.min_by(|one, other| of_samples(one).total_cmp(&of_samples(other)))
+    };
+    let found = best(likely.collect()).or_else(|| best(beside))?;
+    Some(Candidate {
+        instead_of: Some(first.clone()),
+        ..found
+    })
 }
 
 /// The candidate with all harmonics that the study asks for.
@@ -327,6 +367,7 @@ fn candidate(
     let unknowns = fit.information.nrows() - fit.at_limits.len();
     Ok(Candidate {
         harmonics: 1,
+        instead_of: None,
         terms,
         bic: deviance(&fit, noise.is_stated) + unknowns as f64 * count.ln(),
         first,

@@ -96,6 +96,12 @@ const PHASE: [&str; 2] = ["phase_rad", "phase_deg"];
 /// Phases that go on over several turns are not wrapped; beyond so many most of them are degrees.
 const TURNS: f64 = 2.0;
 
+/// Phases of a column of degrees that are within π, as rounded, and go over so much, are radian where the receptance rises so many
+/// times above both of its sides.
+const LARGEST_RAD: f64 = 3.2;
+const TURNED_RAD: f64 = 1.0;
+const PEAK: f64 = 1.5;
+
 /// Reads a run; rows that stand in the table again count once, and the second value is how many those are.
 pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<(SineRun, usize), LapError> {
     let mut table = NumberTable::read(path)?;
@@ -107,12 +113,11 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<(SineRun, u
         &PHASE,
         ": a level without phase does not tell damping from stiffness",
     )?;
+    let phases = table.rows().iter();
+    let phases = phases.filter_map(|(_, values)| values[phase.0]);
+    let phases: Vec<f64> = phases.collect();
     if phase.1 == 0 {
-        let phases = table
-            .rows()
-            .iter()
-            .filter_map(|(_, values)| values[phase.0]);
-        refuse_degrees(path, &phases.collect::<Vec<f64>>())?;
+        refuse_degrees(path, &phases)?;
     }
     let own = PhaseOf::ALL[response.1];
     let phase_of = options.phase_of.unwrap_or(own);
@@ -172,6 +177,9 @@ pub(super) fn read_sine(path: &Path, options: SineOptions) -> Result<(SineRun, u
         ));
     }
     lines.sort_by(|a, b| a.omega.total_cmp(&b.omega));
+    if phase.1 == 1 {
+        refuse_radians(path, &phases, &lines)?;
+    }
     let leading = lines
         .iter()
         .filter(|line| line.phase_rad.sin() > 0.0)
@@ -211,6 +219,37 @@ fn refuse_degrees(path: &Path, phases: &[f64]) -> Result<(), LapError> {
         });
     }
     Ok(())
+}
+
+/// Refuses phases in degrees that stay within ±π and go over more than one, while the receptance passes a resonance: there a
+/// phase turns by most of half a turn.
+fn refuse_radians(path: &Path, phases: &[f64], lines: &[SineLine]) -> Result<(), LapError> {
+    let [low, high] = ends(phases);
+    let sizes: Vec<f64> = lines
+        .iter()
+        .map(|line| line.displacement_m / line.force_n)
+        .collect();
+    let side = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = (0..sizes.len()).max_by(|&one, &other| sizes[one].total_cmp(&sizes[other]));
+    let passes = highest.is_some_and(|place| {
+        let least = PEAK * side(&sizes[..=place]).max(side(&sizes[place..]));
+        sizes[place] > least
+    });
+    if passes && low.abs().max(high.abs()) < LARGEST_RAD && high - low > TURNED_RAD {
+        return Err(LapError::Radians {
+            path: path.to_owned(),
+            least: low,
+            largest: high,
+        });
+    }
+    Ok(())
+}
+
+/// The least and the largest of values.
+fn ends(values: &[f64]) -> [f64; 2] {
+    let first = [f64::INFINITY, f64::NEG_INFINITY];
+    let wider = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
+    values.iter().fold(first, wider)
 }
 
 /// An angle between −π and π.

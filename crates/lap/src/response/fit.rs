@@ -122,6 +122,13 @@ pub(super) fn fit<'a>(
     Ok(found)
 }
 
+/// χ² of data at values that were fitted to others.
+pub(super) fn chi_squared_at(model: &Model, data: Data<'_>, noise: &Noise, values: &Values) -> f64 {
+    let amplitudes = Start::from(values).amplitudes_m(model, data).into_iter();
+    let logarithms = amplitudes.map(|amplitude_m| amplitude_m.max(f64::MIN_POSITIVE).ln());
+    State::new(model, data, noise, *values, logarithms.collect()).chi_squared
+}
+
 /// Where the first few steps from a start lead: that tells which starts are worth the rest.
 pub(super) fn glanced(
     model: &Model,

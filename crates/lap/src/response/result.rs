@@ -11,11 +11,13 @@ use super::data::{SineRun, Use};
 use super::decay::InTime;
 use super::fit::Fit;
 use super::model::{Model, Motion, ResponseUnknown, Values};
+use super::odd::{self, Misfit};
 use super::prediction::{
     BackbonePrediction, BetweenRuns, NoInterval, Prediction, Spread, Unpredicted,
 };
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
+use super::terms::TermSet;
 use super::told::{Searched, by_searched};
 use crate::error::LapError;
 use bolted_joint_identify::Watch;
@@ -71,8 +73,12 @@ pub struct LapResponse {
     pub starts: (usize, usize),
     /// Standard deviations by which the estimate still moved as decays were read anew the last time.
     pub(super) unrest: f64,
+    /// What may be behind a residual that is no noise.
+    pub(super) misfit: Misfit,
     /// How free decays went into the estimate.
     pub in_time: InTime,
+    /// The law that explains best what was read of them, where another one was taken for their samples.
+    pub(super) instead_of: Option<TermSet>,
     /// Resonances of all runs, measured and of the model.
     pub predictions: Vec<Prediction>,
     /// Runs that were left out and have no resonance.
@@ -166,7 +172,7 @@ impl LapResponse {
             .iter()
             .map(|run| (role(run.used_for, "backbone"), run.path.clone()));
         let files: Vec<_> = sines.chain(backbones).collect();
-        Ok(Self {
+        let mut found = Self {
             name: study.name.clone(),
             provenance: input::origin(
                 Method::LapResponse,
@@ -187,13 +193,21 @@ impl LapResponse {
             comparison,
             starts: chosen.starts,
             unrest: chosen.unrest,
+            misfit: Misfit::default(),
             in_time: chosen.in_time,
+            instead_of: chosen.instead_of,
             predictions,
             unpredicted,
             backbones: of_backbones,
             between_runs,
             amplitude_m,
-        })
+        };
+        // what is left of samples is no measure of what is left of points
+        if found.is_far_from_noise(study) && found.in_time != InTime::Fitted {
+            let base = found.free.as_ref().unwrap_or(&found.fit);
+            found.misfit = odd::misfit(study, &found.model, base);
+        }
+        Ok(found)
     }
 
     /// The receptance of the model at the lines of a run, at the relative amplitudes that its measured responses mean.
@@ -283,7 +297,23 @@ impl LapResponse {
     pub fn of_decays(&self) -> Option<String> {
         match &self.in_time {
             InTime::NoDecay => None,
-            InTime::Fitted => Some("Decays are fitted sample by sample.".to_owned()),
+            InTime::Fitted => {
+                let compared = match self.comparison.len() > 1 {
+                    true => {
+                        " Models are compared by what is read of them over ten half-periods at a time."
+                    }
+                    false => "",
+                };
+                let instead = self.instead_of.as_ref().map_or_else(String::new, |first| {
+                    format!(
+                        " That fits \"{first}\" best, of which no motion follows the samples; what \"{}\" leaves of them is noise.",
+                        self.model.terms
+                    )
+                });
+                Some(format!(
+                    "Decays are fitted sample by sample.{compared}{instead}"
+                ))
+            }
             InTime::Read(reason) => Some(format!(
                 "Decays are fitted as they are read, not sample by sample: {reason}."
             )),

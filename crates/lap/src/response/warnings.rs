@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use super::data::Use;
 use super::decay::{InTime, NotInTime};
+use super::plausible;
 use super::prediction::BackbonePrediction;
 use super::result::LapResponse;
 use super::study::{LapResponseStudy, NoiseIs};
@@ -40,6 +41,8 @@ impl LapResponse {
     pub fn warnings(&self, study: &LapResponseStudy) -> Vec<String> {
         let mut warnings = study.repeats.found.clone();
         warnings.extend(of_damping(study));
+        warnings.extend(plausible::of_data(study));
+        warnings.extend(self.of_sizes(study));
         let open = self.not_identified();
         if !open.is_empty() {
             warnings.push(format!(
@@ -49,6 +52,7 @@ impl LapResponse {
         }
         warnings.extend(self.of_price());
         warnings.extend(self.of_residual(study));
+        warnings.extend(self.misfit.told());
         warnings.extend(self.of_pattern(study));
         warnings.extend(self.of_lost_motion());
         if let InTime::Read(_) = self.in_time {
@@ -61,6 +65,15 @@ impl LapResponse {
                 study.harmonics
             ));
         }
+        if let (Some(slider), Some(stated)) = (self.model.terms.slider(), study.stated_harmonics)
+            && stated > 1
+            && !study.sines.is_empty()
+        {
+            warnings.push(format!(
+                "`model.harmonics = {stated}` has no effect with \"{}\": laws that slip are fitted by their closed loops of one harmonic",
+                slider.name()
+            ));
+        }
         let own = self
             .comparison
             .iter()
@@ -69,7 +82,9 @@ impl LapResponse {
             .comparison
             .iter()
             .find(|model| model.bic_difference == 0.0);
-        if let (Some(own), Some(best)) = (own, best)
+        // models are compared by what was read of decays; a fit to their samples is another one
+        if self.in_time != InTime::Fitted
+            && let (Some(own), Some(best)) = (own, best)
             && own.bic_difference > STRONG
         {
             warnings.push(format!(
@@ -120,8 +135,7 @@ impl LapResponse {
         if study.noise_is() == NoiseIs::OfRecords {
             return None;
         }
-        let residuals = self.residuals_by_run(study);
-        let (correlation, deviation) = neighbours(&residuals)?;
+        let (correlation, deviation) = self.pattern(study)?;
         (correlation > PATTERN.max(CERTAIN * deviation)).then(|| {
             format!(
                 "what the law leaves is not noise: the residuals of neighbouring points are correlated ({correlation:.2}); the law, or \
@@ -129,6 +143,17 @@ impl LapResponse {
                  intervals do not hold it"
             )
         })
+    }
+
+    /// Correlation of neighbouring residuals, and its standard deviation by chance; `None` of too few.
+    fn pattern(&self, study: &LapResponseStudy) -> Option<(f64, f64)> {
+        neighbours(&self.residuals_by_run(study))
+    }
+
+    /// Whether neighbouring residuals are as independent as those of noise; not, where there are too few to tell.
+    pub(super) fn leaves_noise(&self, study: &LapResponseStudy) -> bool {
+        let pattern = self.pattern(study);
+        pattern.is_some_and(|(correlation, _)| correlation <= PATTERN)
     }
 
     /// That the law's own motion does not follow the records that it is said to be of.

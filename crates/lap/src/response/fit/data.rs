@@ -14,7 +14,7 @@ pub(in crate::response) struct Data<'a> {
 
 impl<'a> Data<'a> {
     /// Numbers beyond the amplitudes.
-    pub(super) fn count(&self) -> usize {
+    pub(in crate::response) fn count(&self) -> usize {
         let of_curves = self.backbones.iter().map(|run| run.count());
         2 * self.lines.len() + of_curves.sum::<usize>()
     }

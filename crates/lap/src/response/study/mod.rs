@@ -56,6 +56,8 @@ pub struct LapResponseStudy {
     pub compare: bool,
     /// Highest harmonic of the relative motion.
     pub harmonics: usize,
+    /// That where the study names it.
+    pub(in crate::response) stated_harmonics: Option<usize>,
     /// Whether other modes may add a constant to the receptance.
     pub other_modes: bool,
     /// What is known of k, m, c, k12, c12; the others are unknown.
@@ -277,6 +279,7 @@ impl LapResponseStudy {
             terms,
             compare: file.model.compare,
             harmonics,
+            stated_harmonics: file.model.harmonics,
             other_modes: file.model.other_modes,
             known,
             noise,

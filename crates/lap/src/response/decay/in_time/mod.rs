@@ -6,6 +6,7 @@
 
 mod release;
 mod rows;
+mod scan;
 mod search;
 mod slopes;
 mod whiteness;
@@ -84,6 +85,20 @@ pub enum NotInTime {
     NotFinite,
 }
 
+impl NotInTime {
+    /// Whether another law may be fitted where this one was not.
+    pub(in crate::response) fn is_of_law(&self) -> bool {
+        match self {
+            Self::OtherData | Self::StatedErrors | Self::Band(_) | Self::TooLong(..) => false,
+            Self::Lost
+            | Self::Undetermined
+            | Self::Unsettled(_)
+            | Self::Coloured(_)
+            | Self::NotFinite => true,
+        }
+    }
+}
+
 impl fmt::Display for NotInTime {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -159,6 +174,9 @@ pub(in crate::response) fn fitted(
         let moderate = read.values.moderate();
         std::iter::once(read.values).chain(moderate)
     });
+    // what slips only before the first point that is read has left no trace there
+    let scanned = std::iter::once_with(|| scan::starts((study, model), runs, &alone, of_each));
+    let starts = starts.chain(scanned.flatten());
     let mut reason = NotInTime::Lost;
     let mut ends: Vec<(Values, Found)> = Vec::new();
     let mut followed = 0;

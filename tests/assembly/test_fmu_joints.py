@@ -69,6 +69,21 @@ def test_a_slider_is_that_of_scipy(slave, tmp_path, step):
     assert np.isfinite(load) and friction != 0
 
 
+IWAN = {"dof": "y", "law": "iwan", "stiffness": 2e6, "slip_force": 60.0, "exponent": -0.4, "ratio": 0.3}
+
+
+@pytest.mark.parametrize("joint", [SLIDER, {"friction": [IWAN]}], ids=["slider", "iwan"])
+def test_the_power_that_is_lost_is_the_rate_of_what_was(slave, tmp_path, joint):
+    """The motion that outputs follow from is summed up otherwise than that of the step: its rounding turns nothing."""
+    fmu = slave(small.write(tmp_path, joint))
+    fmu.initialise()
+    step = 1e-5
+    found = stepped(fmu, 200.0, step, 2000, ("power.dissipated", "energy.dissipated"))
+    powers, energies = found.T
+    integral = step * (powers[1:] + powers[:-1]).sum() / 2
+    assert integral == pytest.approx(energies[-1] - energies[0], rel=5e-3)
+
+
 @pytest.mark.parametrize("step", [1e-4, 5e-4])
 def test_bristles_are_those_of_scipy(slave, tmp_path, step):
     """LuGre's law alone knows time, and is of second order: errors of many short parts add up."""

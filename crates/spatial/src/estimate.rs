@@ -10,6 +10,7 @@ use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::level::{of_residuals, relative_rms, sizes};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
+use crate::odd::odd_channels;
 use crate::problem::{Level, Problem, Unknowns};
 use crate::reasons;
 use crate::richer::{Richer, richer};
@@ -337,7 +338,10 @@ impl SpatialStudy {
             starts: *starts,
             groups: spread.groups.iter().map(group).collect(),
             errors: problem.found_errors(&best.unknowns, &spread.together),
-            warnings: richer.iter().map(Richer::warning).collect(),
+            warnings: odd_channels(&compared, &alone.unknowns)?
+                .into_iter()
+                .chain(richer.iter().map(Richer::warning))
+                .collect(),
             reasons_against: Vec::new(),
         };
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);

@@ -30,6 +30,7 @@ mod misfits;
 mod motionless;
 mod normal;
 mod numbers;
+mod odd;
 mod parallel;
 mod passive;
 mod patterns;

@@ -1,0 +1,195 @@
+//! Channels and impacts of the assembly that do not go with what was found, where most others do: a gain, a direction or a plug that
+//! is wrong in that test alone. What is wrong at A or B is told before the joint is sought ([`misfits`](crate::misfits)).
+
+use bolted_joint_frf::Dof;
+use num_complex::Complex64;
+
+use crate::assembled::Assembled;
+use crate::error::SpatialError;
+use crate::parallel::over_lines;
+use crate::problem::{Problem, Unknowns};
+
+/// Lines that are looked at.
+const LINES: usize = 200;
+
+/// What a channel leaves of its functions in parts of what the median channel does, from which on it is told.
+const ODD: f64 = 3.0;
+
+/// Channels and functions of each that are needed to tell what is usual, and the part of them that may be odd.
+const FEWEST: usize = 4;
+const MOST: f64 = 0.34;
+
+/// Part of what is left that a gain or an exchange has to take away.
+const EXPLAINS: f64 = 0.75;
+
+/// What is left of a function, below which all is well whatever the others leave.
+const LEAST: f64 = 1e-3;
+
+/// A channel or an impact.
+struct Odd {
+    place: usize,
+    dof: Dof,
+    /// What it leaves over what is usual.
+    ratio: f64,
+}
+
+/// Measured and computed values of each function.
+struct Compared<'p> {
+    problem: &'p Problem,
+    /// Function by function, line by line.
+    computed: Vec<Vec<Complex64>>,
+}
+
+/// What does not fit, in words; nothing where the functions are too few to say.
+pub(crate) fn odd_channels(
+    problem: &Problem,
+    unknowns: &Unknowns,
+) -> Result<Vec<String>, SpatialError> {
+    let problem = &problem.thinned(LINES);
+    let compared = Compared::of(problem, unknowns)?;
+    let [a, b] = &problem.sides;
+    let dofs: [Vec<Dof>; 2] = [
+        a.responses.iter().chain(&b.responses).copied().collect(),
+        a.references.iter().chain(&b.references).copied().collect(),
+    ];
+    let told = [0, 1].map(|way| compared.told(way, &dofs[way]));
+    Ok(told.concat())
+}
+
+impl<'p> Compared<'p> {
+    fn of(problem: &'p Problem, unknowns: &Unknowns) -> Result<Self, SpatialError> {
+        let assembled = Assembled::new(problem, unknowns)?;
+        let lines: Vec<Vec<Complex64>> = over_lines(problem.frequency_hz.len(), |lines| {
+            lines
+                .map(|line| Ok(assembled.line(line)?.functions))
+                .collect::<Result<Vec<_>, SpatialError>>()
+        })?
+        .concat();
+        let functions = 0..problem.observed.len();
+        Ok(Self {
+            problem,
+            computed: functions
+                .map(|n| lines.iter().map(|line| line[n]).collect())
+                .collect(),
+        })
+    }
+
+    /// Functions of a channel (`way` 0) or of an impact (1).
+    fn functions(&self, way: usize, place: usize) -> impl Iterator<Item = usize> {
+        let all = self.problem.observed.iter().enumerate();
+        all.filter(move |(_, one)| one.at[way] == place)
+            .map(|(n, _)| n)
+    }
+
+    /// ‖m − g c‖/‖c‖ of the measured values of one function and the computed ones of another.
+    fn left(&self, measured: usize, computed: usize, gain: Complex64) -> f64 {
+        let (m, c) = (
+            &self.problem.observed[measured].values,
+            &self.computed[computed],
+        );
+        let left: f64 = m
+            .iter()
+            .zip(c)
+            .map(|(m, c)| (m - gain * c).norm_sqr())
+            .sum();
+        let size: f64 = c.iter().map(Complex64::norm_sqr).sum();
+        (left / size.max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// What a channel leaves in the median of its functions, with this gain.
+    fn left_of(&self, way: usize, place: usize, gain: Complex64) -> Option<f64> {
+        median(
+            self.functions(way, place)
+                .map(|n| self.left(n, n, gain))
+                .collect(),
+        )
+    }
+
+    fn told(&self, way: usize, dofs: &[Dof]) -> Vec<String> {
+        let one = Complex64::ONE;
+        let all = dofs.iter().enumerate().filter_map(|(place, &dof)| {
+            let is_enough = self.functions(way, place).nth(FEWEST - 1).is_some();
+            let left = self.left_of(way, place, one).filter(|_| is_enough)?;
+            Some((place, dof, left))
+        });
+        let all: Vec<(usize, Dof, f64)> = all.collect();
+        let usual = median(all.iter().map(|own| own.2).collect());
+        let Some(usual) = usual.filter(|_| all.len() >= FEWEST) else {
+            return Vec::new();
+        };
+        let usual = usual.max(LEAST / ODD);
+        let odd: Vec<Odd> = all
+            .iter()
+            .filter(|(_, _, left)| *left > ODD * usual)
+            .map(|&(place, dof, left)| Odd {
+                place,
+                dof,
+                ratio: left / usual,
+            })
+            .collect();
+        if odd.len() as f64 > MOST * all.len() as f64 {
+            return Vec::new();
+        }
+        let what = ["channel", "impact"][way];
+        let tell = |own: &Odd| {
+            let Odd { dof, ratio, .. } = own;
+            format!(
+                "the functions of the {what} {dof} of the assembly leave {ratio:.0} times what others leave: {}",
+                self.advice(way, own, &odd)
+            )
+        };
+        odd.iter().map(tell).collect()
+    }
+
+    /// What would make it fit.
+    fn advice(&self, way: usize, own: &Odd, odd: &[Odd]) -> String {
+        let left = self.left_of(way, own.place, Complex64::ONE).unwrap_or(0.0);
+        let explains = |rest: Option<f64>| rest.is_some_and(|rest| rest < (1.0 - EXPLAINS) * left);
+        let others = odd.iter().filter(|other| other.place != own.place);
+        let mut exchanged = others.filter(|other| {
+            let pairs = self.functions(way, own.place).filter_map(|n| {
+                let across = self.problem.observed[n].at[1 - way];
+                let mut beside = self.functions(way, other.place);
+                let other = beside.find(|&k| self.problem.observed[k].at[1 - way] == across)?;
+                Some(self.left(n, other, Complex64::ONE))
+            });
+            explains(median(pairs.collect()))
+        });
+        if let Some(other) = exchanged.next() {
+            return format!("they are those of {}: exchange the two", other.dof);
+        }
+        let gain = self.gain(way, own.place);
+        if explains(self.left_of(way, own.place, gain)) {
+            return match gain.re < 0.0 {
+                true => format!(
+                    "they are {:.3} times what they should be: turn its sign, and check its calibration",
+                    gain.re
+                ),
+                false => format!(
+                    "they are {:.3} times what they should be: check its calibration in that test",
+                    gain.re
+                ),
+            };
+        }
+        "check its direction, its place and its plug in that test".to_owned()
+    }
+
+    /// g of least ‖m − g c‖ over its functions, each by its own size; real.
+    fn gain(&self, way: usize, place: usize) -> Complex64 {
+        let of = |n: usize| {
+            let (m, c) = (&self.problem.observed[n].values, &self.computed[n]);
+            let size: f64 = c.iter().map(Complex64::norm_sqr).sum();
+            let product: Complex64 = m.iter().zip(c).map(|(m, c)| c.conj() * m).sum();
+            product.re / size.max(f64::MIN_POSITIVE)
+        };
+        let gains = self.functions(way, place).map(of).collect();
+        Complex64::from(median(gains).unwrap_or(1.0))
+    }
+}
+
+/// Of finite numbers; `None` of none.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.retain(|value| value.is_finite());
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

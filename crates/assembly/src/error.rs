@@ -50,10 +50,10 @@ pub enum AssemblyError {
         /// Frequency, Hz.
         frequency_hz: f64,
     },
-    /// The shortest step along a curve finds no further motion.
+    /// Steps along a curve become ever shorter.
     #[error(
-        "harmonic balance follows the assembly's motion no farther than {frequency_hz} Hz, after {points} points: the shortest step \
-         finds no further one; take another number of harmonics, less load, or a range that ends there"
+        "harmonic balance follows the assembly's motion no farther than {frequency_hz} Hz, after {points} points: its steps become ever \
+         shorter; take another number of harmonics, less load, or a range that ends there"
     )]
     CurveStuck {
         /// Frequency of the last motion, Hz.

@@ -39,6 +39,11 @@ impl<'a> Course<'a> {
         if self.is_odd() { PI } else { TAU }
     }
 
+    /// The highest order.
+    pub(super) fn highest(&self) -> f64 {
+        self.harmonics.highest() as f64
+    }
+
     /// Number of coefficients.
     pub(super) fn slots(&self) -> usize {
         self.harmonics.slots()

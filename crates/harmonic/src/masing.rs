@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use bolted_joint_dynamics::Number;
 
-use super::quadrature::NODES;
+use super::quadrature::nodes;
 
 /// The fundamental of a load: f ≈ a₁ cos θ + b₁ sin θ while u = U cos θ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub fn masing_fundamental<N: Number>(
         if to <= from {
             continue;
         }
-        for &(place, weight) in NODES.iter() {
+        for &(place, weight) in nodes(0.0) {
             let theta = from + (to - from) * place;
             let f = load(theta) * N::from((to - from) * weight);
             sums = [

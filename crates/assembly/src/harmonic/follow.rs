@@ -8,8 +8,14 @@ const LONGEST: f64 = 0.1;
 const SHORTEST: f64 = 1e-9;
 /// Steps that are tried, those among them that were too long: a curve has some hundreds.
 const MOST_TRIALS: usize = 50_000;
+/// So many of them in which it gets on by no more than the first step are as good as none.
+const CREEPING: usize = 1000;
 const MOST_ITERATIONS: usize = 10;
 const USUAL_ITERATIONS: f64 = 3.0;
+/// The most by which a step is longer than the one before.
+const FASTEST: f64 = 1.5;
+/// First change of the unknowns below which the next step is that much longer, however many iterations there are.
+const STRAIGHT: f64 = 1e-6;
 /// Change of the unknowns at which a point is one of the curve.
 const CONVERGED: f64 = 1e-10;
 /// Part of the change before that is no progress.
@@ -46,6 +52,8 @@ struct Point {
     tangent: DVector<f64>,
     /// Iterations to it.
     iterations: usize,
+    /// The first change of the unknowns on the way to it, the largest of them.
+    first_change: f64,
 }
 
 /// The point near `start` in the plane across a row: the product of that with the scaled change of the unknowns is zero.
@@ -56,7 +64,7 @@ fn solve(
     row: &DVector<f64>,
 ) -> Option<Point> {
     let mut unknowns = start.clone();
-    let mut last = f64::INFINITY;
+    let (mut first_change, mut last) = (0.0, f64::INFINITY);
     for iteration in 1..=MOST_ITERATIONS {
         let (residual, derivatives) = curve.at(&unknowns)?;
         let count = residual.len();
@@ -67,6 +75,9 @@ fn solve(
         let size = change.amax();
         if !size.is_finite() {
             return None;
+        }
+        if iteration == 1 {
+            first_change = size;
         }
         unknowns += change.component_mul(scale);
         // or where rounding, or the corners of what slides, allow no less
@@ -80,6 +91,7 @@ fn solve(
                 unknowns,
                 tangent: tangent / norm,
                 iterations: iteration,
+                first_change,
             });
         }
         last = size;
@@ -135,7 +147,14 @@ pub(super) fn follow(
     let mut length = FIRST;
     // the farthest that it came
     let mut reached: f64 = 0.0;
-    for _ in 0..MOST_TRIALS {
+    let mut lately = 0.0;
+    for trial in 1..=MOST_TRIALS {
+        if trial.is_multiple_of(CREEPING) {
+            if lately < FIRST {
+                return Err(lost(&points, &place, false));
+            }
+            lately = 0.0;
+        }
         let predicted = &place + (&along * length).component_mul(&scale);
         let found = solve(curve, &predicted, &scale, &along).and_then(|next| {
             let is_smooth = next.tangent.dot(&along) > SMALLEST_COSINE;
@@ -154,6 +173,7 @@ pub(super) fn follow(
             unknowns: next,
             tangent: turned,
             iterations,
+            first_change,
         } = next;
         if (next[monitored] - to) * direction >= 0.0 {
             let mut last = next;
@@ -164,8 +184,13 @@ pub(super) fn follow(
         if (next[monitored] - from) * direction < 0.0 {
             return Ok(points);
         }
+        lately += length;
         reached = reached.max((next[monitored] - from) / (to - from));
-        let faster = (USUAL_ITERATIONS / iterations as f64).clamp(0.5, 1.5);
+        let faster = match first_change < STRAIGHT {
+            // so near to a straight line that what iterates is rounding, or a corner
+            true => FASTEST,
+            false => (USUAL_ITERATIONS / iterations as f64).clamp(0.5, FASTEST),
+        };
         length = match is_smooth {
             true => (length * faster).min(LONGEST),
             // beyond the kink it goes on as at the start

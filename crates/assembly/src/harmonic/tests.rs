@@ -105,7 +105,7 @@ const SHOT: [Shot; 6] = {
 #[test]
 fn a_bouc_wen_joint_moves_as_shooting_finds() {
     for (law, hertz, expected, largest) in SHOT {
-        let found = forced(&bouc_wen(law), hertz, 31, Complex64::from(LOAD));
+        let found = forced(&bouc_wen(law), hertz, 41, Complex64::from(LOAD));
         assert!((found.frequency_hz / hertz - 1.0).abs() < 1e-12);
         for (found, expected) in found.fundamental.iter().zip(expected) {
             let error = (found - expected).norm() / expected.norm();

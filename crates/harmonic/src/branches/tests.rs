@@ -75,6 +75,9 @@ fn side_by_side() -> DofLaws {
 fn motions() -> Vec<(Harmonics, Vec<f64>)> {
     let odd = Harmonics::odd(5).unwrap();
     let all = Harmonics::all(4).unwrap();
+    let high = Harmonics::odd(31).unwrap();
+    let wave = |n: usize| (1.0 + n as f64).powi(-2) * if n.is_multiple_of(3) { 0.8 } else { -0.3 };
+    let of_high = (0..high.slots()).map(wave).collect();
     vec![
         (Harmonics::odd(1).unwrap(), vec![0.8, 0.6]),
         (odd.clone(), vec![1.0, 0.4, 0.06, -0.04, 0.01, 0.02]),
@@ -83,6 +86,7 @@ fn motions() -> Vec<(Harmonics, Vec<f64>)> {
             all.clone(),
             vec![0.3, 1.0, 0.2, 0.05, -0.1, 0.02, 0.03, 0.01, 0.0],
         ),
+        (high, of_high),
         (all, vec![-0.4, 0.5, 0.2, 0.6, -0.1, 0.3, 0.7, -0.4, 0.5]),
     ]
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun, Use};
-use super::decay::{Following, InTime, corrected, fitted, followed};
+use super::decay::{Effort, Following, InTime, corrected, fitted, followed};
 use super::fit::{self, Data, Fit, Kind};
 use super::model::Model;
 use super::passive::Limit;
@@ -148,7 +148,7 @@ pub(super) fn choose(
     match chosen.map(|place| candidates.remove(place)) {
         Some(chosen) => {
             let read = read_to_the_end(study, chosen, &runs);
-            let found = in_time(study, refined(study, read, &runs));
+            let found = in_time(study, refined(study, read, &runs), true);
             let is_lost = matches!(&found.in_time, InTime::Read(reason) if reason.is_of_law());
             let other = match is_lost && study.terms.is_none() {
                 true => of_another_law(study, &found.terms, candidates),
@@ -213,7 +213,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
 }
 
 /// The candidate fitted to the samples of decays, where what it leaves of them is noise.
-fn in_time(study: &LapResponseStudy, candidate: Candidate) -> Candidate {
+fn in_time(study: &LapResponseStudy, candidate: Candidate, is_first: bool) -> Candidate {
     let measured = fitted_backbones(study);
     if measured.iter().all(|run| run.recorded.is_none()) {
         return candidate;
@@ -223,7 +223,11 @@ fn in_time(study: &LapResponseStudy, candidate: Candidate) -> Candidate {
     let read = [&candidate.fit, &candidate.corrected, &candidate.first];
     // one search alone says nothing of whether there is a better estimate; two over the samples, from starts apart, do
     let is_alone = candidate.starts.0 >= FEW_STARTS && candidate.starts.1 < 2;
-    match fitted((study, &model), &read, &measured, is_alone) {
+    let effort = match is_first {
+        true => Effort::Whole { confirm: is_alone },
+        false => Effort::Shared,
+    };
+    match fitted((study, &model), &read, &measured, effort) {
         Ok(found) => Candidate {
             starts: match is_alone && found.searches.1 > 1 {
                 true => found.searches,
@@ -263,7 +267,7 @@ fn of_another_law(
         deviance(&candidate.fit, study.noise.is_stated) + unknowns as f64 * count.ln()
     };
     let best = |candidates: Vec<Candidate>| {
-        let fitted = candidates.into_iter().map(|one| in_time(study, one));
+        let fitted = candidates.into_iter().map(|one| in_time(study, one, false));
         let fitted = fitted.filter(|one| one.in_time == InTime::Fitted);
         fitted.min_by(|one, other| of_samples(one).total_cmp(&of_samples(other)))
     };

@@ -80,13 +80,13 @@ impl LapResponse {
         is_open(joint).then(|| format!("the data do not determine {}{of_mass}", joint.symbol()))
     }
 
-    /// Whether the estimate leaves no more than noise: as much as is known, or less than is taken where none is stated, and that
-    /// without a pattern.
+    /// Whether the estimate leaves no more than noise: as much as is known, or where none is known not much more than is taken, and
+    /// that without a pattern.
     fn is_explained(&self, study: &LapResponseStudy) -> bool {
         let reduced = self.free_chi_squared();
         match study.knows_noise() {
             true => reduced <= NOISE,
-            false => reduced <= 1.0 && self.leaves_noise(study),
+            false => !self.is_far_from_noise(study) && self.leaves_noise(study),
         }
     }
 

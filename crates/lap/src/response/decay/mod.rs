@@ -26,7 +26,7 @@ use super::backbone::BackboneLine;
 
 pub(super) use self::errors::ReadingErrors;
 pub use self::in_time::{Coloured, InTime, NotInTime};
-pub(super) use self::in_time::{Rows, fitted};
+pub(super) use self::in_time::{Effort, Rows, fitted};
 pub(super) use self::recorded::{Quantity, Recorded};
 pub(super) use self::simulated::{Following, beside, corrected, followed};
 

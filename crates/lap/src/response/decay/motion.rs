@@ -13,6 +13,8 @@ use crate::response::model::Values;
 
 /// Steps in a period, at least.
 const STEPS: f64 = 64.0;
+/// Steps from a release to the first sample at most: it is the last turn before that.
+const STEPS_BEFORE: f64 = 32.0 * STEPS;
 /// A motion beyond so many times the release is none of a decay.
 const ESCAPES: f64 = 2.0;
 /// Cuts of a step at most, part of the displacement of a corner that is none, and steps that find the place of a cut.
@@ -92,6 +94,9 @@ pub(super) fn sampled(
     }
     let first_s = record.interval_s * before as f64 - release.time_s;
     let steps = (first_s / grid.step_s).ceil().max(1.0);
+    if steps.is_nan() || steps > STEPS_BEFORE {
+        return None;
+    }
     for _ in 0..steps as u64 {
         law.advance(&mut place, first_s / steps);
     }

@@ -51,6 +51,16 @@ const APART: f64 = 3.0;
 /// Shares of the records that others are brought near by.
 const SHARES: [f64; 5] = [0.1, 0.2, 0.35, 0.6, 1.0];
 
+/// How much is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::response) enum Effort {
+    /// All that may help, with work for each start; where one search alone came to the fit of what was read, another one has to
+    /// come to the same end, to confirm it.
+    Whole { confirm: bool },
+    /// One law of several: with work for all starts together.
+    Shared,
+}
+
 /// How free decays went into an estimate.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InTime {
@@ -140,13 +150,12 @@ pub(in crate::response) struct Found {
     pub(in crate::response) searches: (usize, usize),
 }
 
-/// Fits a model to the samples of decays, from fits to what was read of them: the last one first. Where the search over what was
-/// read came to its end alone another one over the samples has to come to the same estimate, to `confirm` it.
+/// Fits a model to the samples of decays, from fits to what was read of them: the last one first.
 pub(in crate::response) fn fitted(
     (study, model): (&LapResponseStudy, &Model),
     read: &[&Fit],
     runs: &[&BackboneRun],
-    confirm: bool,
+    effort: Effort,
 ) -> Result<Found, NotInTime> {
     if study.noise.is_of_curves {
         return Err(NotInTime::StatedErrors);
@@ -174,9 +183,21 @@ pub(in crate::response) fn fitted(
         let moderate = read.values.moderate();
         std::iter::once(read.values).chain(moderate)
     });
+    let left = Cell::new(of_each);
     // what slips only before the first point that is read has left no trace there
-    let scanned = std::iter::once_with(|| scan::starts((study, model), runs, &alone, of_each));
-    let starts = starts.chain(scanned.flatten());
+    let scan = || scan::starts((study, model), runs, &alone, &left);
+    let (first, confirm) = match effort {
+        Effort::Whole { confirm } => (Vec::new(), confirm),
+        Effort::Shared => (scan(), false),
+    };
+    let last = std::iter::once_with(|| match effort {
+        Effort::Whole { .. } => {
+            left.set(of_each);
+            scan()
+        }
+        Effort::Shared => Vec::new(),
+    });
+    let starts = first.into_iter().chain(starts).chain(last.flatten());
     let mut reason = NotInTime::Lost;
     let mut ends: Vec<(Values, Found)> = Vec::new();
     let mut followed = 0;
@@ -186,7 +207,9 @@ pub(in crate::response) fn fitted(
         if ends.iter().any(is_near) {
             continue;
         }
-        let left = Cell::new(of_each);
+        if effort != Effort::Shared {
+            left.set(of_each);
+        }
         let start = match Start::of((study, model), values, &alone, &left) {
             Err(NotInTime::Lost) => continue,
             other => other?.brought_near(),

@@ -17,16 +17,17 @@ use crate::response::slider::{Slider, SliderValues};
 use crate::response::study::LapResponseStudy;
 
 /// Shares of the records that a law is tried on, one after the other.
-const TRIED_ON: [f64; 3] = [0.05, 0.1, 0.2];
-/// Laws that are followed to their end, the best first.
+const TRIED_ON: [f64; 2] = [0.06, 0.15];
+/// Laws that are followed to their end, the best first, and how many times what the best leaves they may leave.
 const FOLLOWED: usize = 3;
+const WORSE: f64 = 10.0;
 
 /// Starts, the best first; none of a law that does not slip.
 pub(super) fn starts(
     (study, model): (&LapResponseStudy, &Model),
     runs: &[&BackboneRun],
     alone: &[(&BackboneRun, Cow<'_, Recorded>)],
-    work: usize,
+    left: &Cell<usize>,
 ) -> Vec<Values> {
     let Some(slider) = model.terms.slider() else {
         return Vec::new();
@@ -40,7 +41,6 @@ pub(super) fn starts(
     };
     let farthest = alone.iter().map(|(run, record)| farthest_m(run, record));
     let released_m = farthest.fold(0.0, f64::max);
-    let left = Cell::new(work);
     let laws = laws(slider, base.relative_stiffness(), released_m).into_iter();
     let laws = laws.filter(|law| law.stiffness() < base.joint_stiffness);
     let tried = laws.filter_map(|law| {
@@ -48,12 +48,14 @@ pub(super) fn starts(
             slider: Some(law),
             ..base
         };
-        let start = Start::of((study, model), values, alone, &left).ok()?;
+        let start = Start::of((study, model), values, alone, left).ok()?;
         tried(start)
     });
     let mut tried: Vec<(f64, Values)> = tried.collect();
     tried.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    let most = tried.first().map_or(0.0, |(least, _)| WORSE * least);
     let best = tried.into_iter().take(FOLLOWED);
+    let best = best.filter(|(left, _)| *left <= most);
     best.map(|(_, values)| values).collect()
 }
 

@@ -286,6 +286,50 @@ def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impac
 
 
 @pytest.mark.parametrize(
+    "wrong, told",
+    [
+        ("gain", ["channel 101:+Z", "they are 1.1", "calibration in that test"]),
+        ("channels", ["channel 101:+Z", "they are those of 201:+X: exchange the two"]),
+        ("impact", ["impact 155:+X", "they are 0.8", "calibration in that test"]),
+    ],
+)
+def test_what_is_wrong_in_the_assembly_alone_is_named(program, tmp_path, wrong, told):
+    """The parts are well measured: only there a channel has another gain or plug, or a hit another one."""
+    Rig(K, C).write(tmp_path, FREQUENCIES[::3], noise=0.01, rng=np.random.default_rng(4), more=EXACT)
+    # the noise is not what the study says where a channel is wrong
+    study = tmp_path / "study.toml"
+    study.write_text(study.read_text().replace("[noise]\nrelative = 0.01\n", ""))
+    held = dict(np.load(tmp_path / "c.npz"))
+    channels, impacts = held["response"].tolist(), held["reference"].tolist()
+    if wrong == "gain":
+        held["frf"][channels.index("101:+Z")] *= 1.15
+    elif wrong == "channels":
+        pair = [channels.index("101:+Z"), channels.index("201:+X")]
+        held["frf"][pair] = held["frf"][pair[::-1]]
+    else:
+        held["frf"][:, impacts.index("155:+X")] *= 0.85
+    np.savez(tmp_path / "c.npz", **held)
+    command = [program, "identify", study, "-o", tmp_path / "j.joint.json"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    warnings = [line for line in done.stderr.splitlines() if "of the assembly leave" in line]
+    assert len(warnings) == (2 if wrong == "channels" else 1), done.stderr
+    assert all(fragment in warnings[0] for fragment in told), warnings
+
+
+def test_good_channels_are_not_told_of(run, tmp_path):
+    Rig(K, C).write(tmp_path, FREQUENCIES[::3], noise=0.01, rng=np.random.default_rng(5), more=EXACT)
+    assert "of the assembly leave" not in run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json").stderr
+
+
+def test_a_joint_that_nothing_determines_is_unusable(run, tmp_path):
+    """The file of the assembly is one of the parts apart."""
+    rig = Rig(0 * K, 0 * C)
+    rig.write(tmp_path, FREQUENCIES[::3], noise=0.01, rng=np.random.default_rng(6), more=EXACT)
+    found = identified(run, tmp_path, expect=3)
+    assert any("determine no stiffness" in reason for reason in found["reasons_against"])
+
+
+@pytest.mark.parametrize(
     "side, of_impacts, pair, keys, dofs",
     [
         (0, False, [1, 5], ["a.sensors[0]", "a.sensors[1]"], ["100:+Y", "101:+Z"]),

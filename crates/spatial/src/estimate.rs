@@ -32,6 +32,9 @@ const MANY: usize = 300;
 /// Levels that a round changes by less than this part are as they are.
 const SETTLED: f64 = 1e-5;
 
+/// Residual in parts of the functions up to which single channels are told from the others.
+const LARGEST_RESIDUAL: f64 = 0.15;
+
 /// Lines that are looked at for each one of the estimate, where the substructures have noise.
 const LOOKED_AT: usize = 10;
 
@@ -338,12 +341,14 @@ impl SpatialStudy {
             starts: *starts,
             groups: spread.groups.iter().map(group).collect(),
             errors: problem.found_errors(&best.unknowns, &spread.together),
-            warnings: odd_channels(&compared, &alone.unknowns)?
-                .into_iter()
-                .chain(richer.iter().map(Richer::warning))
-                .collect(),
+            warnings: Vec::new(),
             reasons_against: Vec::new(),
         };
+        // beside a joint that is another one, none goes with the others
+        if result.relative_rms < LARGEST_RESIDUAL {
+            result.warnings = odd_channels(&compared, &alone.unknowns)?;
+        }
+        result.warnings.extend(richer.iter().map(Richer::warning));
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
         let of_energy = reasons::of_energy(squares_from_free, count);
         result.reasons_against.extend(of_energy);

@@ -289,7 +289,7 @@ def test_what_does_not_fit_the_others_is_named(program, tmp_path, side, of_impac
     "wrong, told",
     [
         ("gain", ["channel 101:+Z", "they are 1.1", "calibration in that test"]),
-        ("channels", ["channel 101:+Z", "they are those of 201:+X: exchange the two"]),
+        ("channels", ["channel 200:+X", "they are those of 202:+X: exchange the two"]),
         ("impact", ["impact 155:+X", "they are 0.8", "calibration in that test"]),
     ],
 )
@@ -304,7 +304,7 @@ def test_what_is_wrong_in_the_assembly_alone_is_named(program, tmp_path, wrong, 
     if wrong == "gain":
         held["frf"][channels.index("101:+Z")] *= 1.15
     elif wrong == "channels":
-        pair = [channels.index("101:+Z"), channels.index("201:+X")]
+        pair = [channels.index("200:+X"), channels.index("202:+X")]
         held["frf"][pair] = held["frf"][pair[::-1]]
     else:
         held["frf"][:, impacts.index("155:+X")] *= 0.85

@@ -352,8 +352,10 @@ impl SpatialStudy {
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
         let of_energy = reasons::of_energy(squares_from_free, count);
         result.reasons_against.extend(of_energy);
-        let of_nothing = reasons::of_nothing(&result.unknowns);
-        result.reasons_against.extend(of_nothing);
+        if best.has_converged {
+            let of_nothing = reasons::of_nothing(&result.unknowns);
+            result.reasons_against.extend(of_nothing);
+        }
         let found = [&result.stiffness, &result.damping];
         let of_model = richer
             .as_ref()

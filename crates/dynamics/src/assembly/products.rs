@@ -17,13 +17,16 @@ pub type Groups<'a> = &'a [[f64; LANES]];
 /// The sums of each of several rows, group by group.
 pub type GroupSums = fn([Groups<'_>; ROWS], Groups<'_>) -> [[f64; LANES]; ROWS];
 
+/// Adds several rows, each with its factor, to a sum.
+pub type AddRows = fn([(f64, &[f64]); ROWS], &mut [f64]);
+
 /// [`group_sums`] and [`add_rows`] as a processor takes them, each compiled for that one.
 #[derive(Clone, Copy, Debug)]
 pub struct Products {
     /// [`group_sums`].
     pub group_sums: GroupSums,
     /// [`add_rows`].
-    pub add_rows: fn([(f64, &[f64]); ROWS], &mut [f64]),
+    pub add_rows: AddRows,
 }
 
 impl Products {

@@ -107,8 +107,8 @@ mod tests {
         assert!((found[(0, 1)] - found[(1, 0)]).abs() < 1e-9 * (translation * rotation).sqrt());
     }
 
-    /// Points between the nodes of one mesh, and the same points as nodes of another: as near as the meshes are, where rotations alone would
-    /// be off by 1e-3.
+    /// Points between the nodes of one mesh, and the same points as nodes of another: as near as the meshes are, where rotations would
+    /// be off by 1e-2 without what this adds.
     #[test]
     fn points_beside_nodes_move_as_if_they_were_nodes() {
         for theory in [Theory::EulerBernoulli, Theory::default()] {
@@ -119,12 +119,16 @@ mod tests {
             let hz: Vec<f64> = (1..20).map(|line| 61.0 * f64::from(line)).collect();
             let beside = beam.modal(&[]).unwrap().receptances(&points, &hz).unwrap();
             let nodes = beam.receptances(&points, &hz).unwrap();
+            // over all lines, as antiresonances make small what a size is
+            let size = |p: usize| {
+                nodes.iter().map(|own| own[(p, p)].norm()).sum::<f64>() / hz.len() as f64
+            };
             for (beside, nodes) in beside.iter().zip(&nodes) {
                 for p in 0..points.len() {
                     for q in 0..points.len() {
-                        let size = (nodes[(p, p)] * nodes[(q, q)]).norm().sqrt();
-                        let off = (beside[(p, q)] - nodes[(p, q)]).norm() / size;
-                        assert!(off < 1e-4, "{off:.1e} at {p}, {q}");
+                        let off =
+                            (beside[(p, q)] - nodes[(p, q)]).norm() / (size(p) * size(q)).sqrt();
+                        assert!(off < 2e-4, "{off:.1e} at {p}, {q}");
                     }
                 }
             }

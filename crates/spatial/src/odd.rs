@@ -2,12 +2,13 @@
 //! is wrong in that test alone. What is wrong at A or B is told before the joint is sought ([`misfits`](crate::misfits)).
 
 use bolted_joint_frf::Dof;
+use bolted_joint_virtual_point::Role;
 use num_complex::Complex64;
 
 use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::parallel::over_lines;
-use crate::problem::{Problem, Unknowns};
+use crate::problem::{Observed, Problem, Unknowns};
 
 /// Lines that are looked at.
 const LINES: usize = 200;
@@ -52,8 +53,10 @@ pub(crate) fn odd_channels(
         a.responses.iter().chain(&b.responses).copied().collect(),
         a.references.iter().chain(&b.references).copied().collect(),
     ];
-    let told = [0, 1].map(|way| compared.told(way, &dofs[way]));
-    Ok(told.concat())
+    let [channels, impacts] = dofs;
+    let mut told = compared.told(Role::Channel, &channels);
+    told.extend(compared.told(Role::Impact, &impacts));
+    Ok(told)
 }
 
 impl<'p> Compared<'p> {
@@ -74,15 +77,15 @@ impl<'p> Compared<'p> {
         })
     }
 
-    /// Functions of a channel (`way` 0) or of an impact (1).
-    fn functions(&self, way: usize, place: usize) -> impl Iterator<Item = usize> {
+    /// Functions of a channel or of an impact.
+    fn functions(&self, role: Role, place: usize) -> impl Iterator<Item = usize> {
         let all = self.problem.observed.iter().enumerate();
-        all.filter(move |(_, one)| one.at[way] == place)
+        all.filter(move |(_, one)| place_of(one, role) == place)
             .map(|(n, _)| n)
     }
 
     /// ‖m − g c‖/‖c‖ of the measured values of one function and the computed ones of another.
-    fn left(&self, measured: usize, computed: usize, gain: Complex64) -> f64 {
+    fn left(&self, measured: usize, computed: usize, gain: f64) -> f64 {
         let (m, c) = (
             &self.problem.observed[measured].values,
             &self.computed[computed],
@@ -90,26 +93,25 @@ impl<'p> Compared<'p> {
         let left: f64 = m
             .iter()
             .zip(c)
-            .map(|(m, c)| (m - gain * c).norm_sqr())
+            .map(|(m, c)| (m - c * gain).norm_sqr())
             .sum();
         let size: f64 = c.iter().map(Complex64::norm_sqr).sum();
         (left / size.max(f64::MIN_POSITIVE)).sqrt()
     }
 
     /// What a channel leaves in the median of its functions, with this gain.
-    fn left_of(&self, way: usize, place: usize, gain: Complex64) -> Option<f64> {
+    fn left_of(&self, role: Role, place: usize, gain: f64) -> Option<f64> {
         median(
-            self.functions(way, place)
+            self.functions(role, place)
                 .map(|n| self.left(n, n, gain))
                 .collect(),
         )
     }
 
-    fn told(&self, way: usize, dofs: &[Dof]) -> Vec<String> {
-        let one = Complex64::ONE;
+    fn told(&self, role: Role, dofs: &[Dof]) -> Vec<String> {
         let all = dofs.iter().enumerate().filter_map(|(place, &dof)| {
-            let is_enough = self.functions(way, place).nth(FEWEST - 1).is_some();
-            let left = self.left_of(way, place, one).filter(|_| is_enough)?;
+            let is_enough = self.functions(role, place).nth(FEWEST - 1).is_some();
+            let left = self.left_of(role, place, 1.0).filter(|_| is_enough)?;
             Some((place, dof, left))
         });
         let all: Vec<(usize, Dof, f64)> = all.collect();
@@ -130,60 +132,74 @@ impl<'p> Compared<'p> {
         if odd.len() as f64 > MOST * all.len() as f64 {
             return Vec::new();
         }
-        let what = ["channel", "impact"][way];
         let tell = |own: &Odd| {
             let Odd { dof, ratio, .. } = own;
             format!(
-                "the functions of the {what} {dof} of the assembly leave {ratio:.0} times what others leave: {}",
-                self.advice(way, own, &odd)
+                "the functions of the {role} {dof} of the assembly leave {ratio:.0} times what others leave: {}",
+                self.advice(role, own, &odd)
             )
         };
         odd.iter().map(tell).collect()
     }
 
     /// What would make it fit.
-    fn advice(&self, way: usize, own: &Odd, odd: &[Odd]) -> String {
-        let left = self.left_of(way, own.place, Complex64::ONE).unwrap_or(0.0);
+    fn advice(&self, role: Role, own: &Odd, odd: &[Odd]) -> String {
+        let left = self.left_of(role, own.place, 1.0).unwrap_or(0.0);
         let explains = |rest: Option<f64>| rest.is_some_and(|rest| rest < (1.0 - EXPLAINS) * left);
         let others = odd.iter().filter(|other| other.place != own.place);
         let mut exchanged = others.filter(|other| {
-            let pairs = self.functions(way, own.place).filter_map(|n| {
-                let across = self.problem.observed[n].at[1 - way];
-                let mut beside = self.functions(way, other.place);
-                let other = beside.find(|&k| self.problem.observed[k].at[1 - way] == across)?;
-                Some(self.left(n, other, Complex64::ONE))
+            let pairs = self.functions(role, own.place).filter_map(|n| {
+                let across = |n: usize| place_of(&self.problem.observed[n], beyond(role));
+                let mut beside = self.functions(role, other.place);
+                let other = beside.find(|&k| across(k) == across(n))?;
+                Some(self.left(n, other, 1.0))
             });
             explains(median(pairs.collect()))
         });
         if let Some(other) = exchanged.next() {
             return format!("they are those of {}: exchange the two", other.dof);
         }
-        let gain = self.gain(way, own.place);
-        if explains(self.left_of(way, own.place, gain)) {
-            return match gain.re < 0.0 {
-                true => format!(
-                    "they are {:.3} times what they should be: turn its sign, and check its calibration",
-                    gain.re
-                ),
-                false => format!(
-                    "they are {:.3} times what they should be: check its calibration in that test",
-                    gain.re
-                ),
+        let gain = self.gain(role, own.place);
+        if explains(self.left_of(role, own.place, gain)) {
+            let sign = if gain < 0.0 {
+                "turn its sign, and "
+            } else {
+                ""
             };
+            return format!(
+                "they are {gain:.3} times what they should be: {sign}check its calibration in that test"
+            );
         }
         "check its direction, its place and its plug in that test".to_owned()
     }
 
     /// g of least ‖m − g c‖ over its functions, each by its own size; real.
-    fn gain(&self, way: usize, place: usize) -> Complex64 {
+    fn gain(&self, role: Role, place: usize) -> f64 {
         let of = |n: usize| {
             let (m, c) = (&self.problem.observed[n].values, &self.computed[n]);
             let size: f64 = c.iter().map(Complex64::norm_sqr).sum();
             let product: Complex64 = m.iter().zip(c).map(|(m, c)| c.conj() * m).sum();
             product.re / size.max(f64::MIN_POSITIVE)
         };
-        let gains = self.functions(way, place).map(of).collect();
-        Complex64::from(median(gains).unwrap_or(1.0))
+        let gains = self.functions(role, place).map(of).collect();
+        median(gains).unwrap_or(1.0)
+    }
+}
+
+/// The row of a function, or its column.
+fn place_of(one: &Observed, role: Role) -> usize {
+    let [row, column] = one.at;
+    match role {
+        Role::Channel => row,
+        Role::Impact => column,
+    }
+}
+
+/// What stands at the other end of a function.
+fn beyond(role: Role) -> Role {
+    match role {
+        Role::Channel => Role::Impact,
+        Role::Impact => Role::Channel,
     }
 }
 

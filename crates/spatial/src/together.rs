@@ -194,12 +194,15 @@ impl<'p> Searches<'p> {
                 _ => 1,
             };
             // noise explains other minima as well at a few lines
-            if self.is_stated && self.explains(&fit) && self.checked.len() < MOST_CHECKED {
+            if self.is_stated && self.explains(&fit) {
                 let start = fit.unknowns.clone();
                 if let Ok(at_more) = Fit::of(&self.lines, start, self.level, Effort::Full) {
                     self.checked.push(at_more);
                     if self.is_checked() || self.agreeing() > 1 {
                         self.best = Some(fit);
+                        return true;
+                    }
+                    if self.checked.len() == MOST_CHECKED {
                         return true;
                     }
                 }

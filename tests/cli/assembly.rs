@@ -167,3 +167,23 @@ fn a_matrix_market_file_is_told_from_an_archive() {
         &["a.mtx", "a Matrix Market file", ".npz", ".mat"],
     );
 }
+
+#[test]
+fn a_mass_where_stiffness_should_be_is_told() {
+    let bench = bench();
+    // one mass of 2 kg on 8 MN/m, and the other way round
+    bench.write("a.npz", archive(&[8e6], &[2.0], &[0.0]));
+    let study = "name = \"x\"\n[structures.a]\nmatrices = \"a.npz\"\n[outputs]\ny = \"a/1:+Y\"\n[response]\nkind = \"modes\"\n";
+    bench.write("x.toml", study);
+    // √(2/8e6)/2π Hz
+    bench.refused(
+        "respond x.toml -o o.csv",
+        &[
+            "structures.a.matrices",
+            "no natural frequency above 7.96e-5 Hz",
+            "exchanged",
+        ],
+    );
+    bench.write("a.npz", archive(&[2.0], &[8e6], &[0.0]));
+    bench.done("respond x.toml -o o.csv");
+}

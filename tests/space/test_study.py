@@ -162,3 +162,19 @@ def test_a_plan_has_no_signs_before_zeros(run, tmp_path):
     replaced(tmp_path, ('frf = "assembly.npz"\n', ""), ("[assembly]", "[noise]\nrelative = 0.01\n[assembly]"))
     told = run("respond", tmp_path / "study.toml", "--plan", "--add", "3").stdout
     assert " -0 " not in told and "-0," not in told and "e-2" not in told, told
+
+
+@pytest.mark.parametrize(
+    "key, models",
+    [
+        ("bolts = 4", '"bolt-circle" alone'),
+        ("axis = [0.0, 0.0, 1.0]", '"bolt" or "two-bolts" or "bolt-circle" or "bolts" alone'),
+        ("positions = [[0.01, 0.0, 0.0]]", '"bolts" alone'),
+        ("twisted = true", '"bolt" or "two-bolts" or "bolt-circle" alone'),
+    ],
+)
+def test_a_key_of_another_model_is_refused(run, tmp_path, key, models):
+    Rig(*TRUTH).write(tmp_path, FREQUENCIES, budget='budget = "none"\n')
+    replaced(tmp_path, (SOUGHT, f"{SOUGHT}\n{key}"))
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert f'joint.{key.split()[0]}: found it beside model = "full"' in told and models in told, told

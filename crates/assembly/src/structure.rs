@@ -21,6 +21,8 @@ const ELEMENTS: NonZeroU16 = NonZeroU16::MIN.saturating_add(95);
 const FREE: f64 = 1e-13;
 /// … and below zero by more than this part of it is no rounding.
 const INDEFINITE: f64 = 1e-9;
+/// ω² of the fastest mode, 1/s², below which no structure with bolts is.
+const SLOWEST: f64 = 1.0;
 /// Imaginary part of a mode shape, in parts of its largest entry, up to which it is taken as a real one.
 const COMPLEX: f64 = 0.05;
 /// Frequency of what stands for residuals of measured modes, in parts of the highest measured one.
@@ -237,6 +239,15 @@ fn of_matrices(
         format_args!("{key}.matrices"),
         format_args!("a mode with ω² = {lowest:e} 1/s²"),
         "a stiffness that is not negative in any motion; check K, and constraints of the reduction",
+    )?;
+    study.ensure(
+        highest <= 0.0 || highest >= SLOWEST,
+        format_args!("{key}.matrices"),
+        format_args!(
+            "no natural frequency above {:.2e} Hz",
+            highest.sqrt() / std::f64::consts::TAU
+        ),
+        "the masses as M and the stiffnesses as K, in kg and N/m; have they been exchanged?",
     )?;
     let damping = matrices.spatial.modal_damping(&modes);
     let least = SymmetricEigen::new(damping.clone()).eigenvalues.min();

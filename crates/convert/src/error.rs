@@ -48,6 +48,19 @@ pub enum ConvertError {
         /// What was expected.
         expected: String,
     },
+    /// A name that the tool would cut.
+    #[error(
+        "found the name {found:?} of {} characters, expected at most {most} for {tool}; give the file a shorter name",
+        found.len()
+    )]
+    Long {
+        /// The name.
+        found: String,
+        /// The tool.
+        tool: &'static str,
+        /// How many characters it takes.
+        most: usize,
+    },
     /// A name that means something else in the tool's language.
     #[error(
         "found the name {found:?}, a word of {language}, expected another; give the file another name"

@@ -44,6 +44,9 @@ impl Head {
         for reason in file.reasons_against() {
             lines.push(format!("NOT TO BE RELIED ON: {reason}"));
         }
+        for matrix in file.passivity().active() {
+            lines.push(format!("CAN FEED ENERGY INTO A SIMULATION: {matrix}"));
+        }
         lines.extend(deviations(file));
         if let Some(validity) = &file.validity {
             let [low, high] = validity.frequency_hz;
@@ -58,6 +61,12 @@ impl Head {
             lines,
             notes: Vec::new(),
         };
+        if file.bodies.is_some() {
+            head.note(
+                "the two bodies of the joint file, their masses and supports, are no part of the joint and are not here: they are those of \
+                 the model that it goes into",
+            );
+        }
         let left = crate::linear::beyond_linear(file);
         if options.at_rest && !left.is_empty() {
             head.note(format!(

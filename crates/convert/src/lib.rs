@@ -230,6 +230,24 @@ mod tests {
     }
 
     #[test]
+    fn what_is_left_out_and_what_is_wrong_stand_in_the_file() {
+        const ACTIVE: &str = r#"{"format": "bolted-joint/1", "name": "a", "joint": {"dofs": ["y"], "stiffness": [[1e6]],
+            "damping": [[-3]]}, "bodies": {"a": {"inertia": [2], "stiffness": [10], "damping": [0]},
+            "b": {"inertia": [3], "stiffness": [0], "damping": [0]}}}"#;
+        for target in ALL {
+            let converted = converted(ACTIVE, target, false).unwrap();
+            let text = words(&converted.text);
+            for expected in [
+                "the two bodies of the joint file",
+                "CAN FEED ENERGY INTO A SIMULATION",
+            ] {
+                assert!(text.contains(expected), "{target:?}: {text}");
+            }
+            assert!(converted.notes.iter().any(|note| note.contains("bodies")));
+        }
+    }
+
+    #[test]
     fn deviations_of_laws_are_told() {
         const SLIPPING: &str = r#"{"format": "bolted-joint/1", "name": "s", "joint": {"dofs": ["y"], "stiffness": [[0]],
             "damping": [[0]], "friction": [{"dof": "y", "law": "jenkins", "stiffness": 1e5, "slip_force": 10}]},

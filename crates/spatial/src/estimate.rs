@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use crate::contradicted;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit, Squares, covariance};
 use crate::fits::strongest;
@@ -19,7 +20,7 @@ use crate::spread::Spread;
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
 
-/// Rounds in which the level of the noise follows the residuals.
+/// Rounds in which the level of the noise follows the residuals, and the budget what it does not allow for.
 const ROUNDS: usize = 5;
 
 /// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
@@ -90,18 +91,31 @@ impl SpatialStudy {
             });
         }
         let rms = sizes(problem);
-        let found = match self.level {
-            Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(&rms, part)?,
-            _ => self.beside_exact(&rms)?,
-        };
-        self.result(&found).map_err(|error| match error {
-            SpatialError::NotDetermined => undetermined(found.joint.has_converged, found.starts),
-            other => other,
-        })
+        let mut found = self.found(&rms, None)?;
+        let mut result = self.result(&found)?;
+        let mut own = self.clone();
+        for _ in 0..ROUNDS {
+            // what a budget that does not hold draws back draws the joint with it
+            let wider = contradicted::wider(&own.problem, &found.best.unknowns)
+                .filter(|_| found.joint.has_converged && result.relative_rms < LARGEST_RESIDUAL);
+            let Some(wider) = wider else { break };
+            own.problem.wider = wider;
+            found = own.found(&rms, Some(found))?;
+            result = own.result(&found)?;
+        }
+        Ok(result)
+    }
+
+    /// What fits best, by searches or from where they have come to.
+    fn found(&self, rms: &Deviations, begun: Option<Found>) -> Result<Found, SpatialError> {
+        match self.level {
+            Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(rms, part, begun),
+            _ => self.beside_exact(rms, begun),
+        }
     }
 
     /// Where the substructures' functions are exact.
-    fn beside_exact(&self, rms: &Deviations) -> Result<Found, SpatialError> {
+    fn beside_exact(&self, rms: &Deviations, begun: Option<Found>) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let errors = problem.error_count();
         let mut level: Deviations = match (self.level, errors) {
@@ -110,12 +124,13 @@ impl SpatialStudy {
             (Level::OfResiduals, _) => parts(rms, NOISE),
         };
         let is_stated = matches!(self.level, Level::Relative(_));
-        let (mut best, starts) = match errors {
-            0 => {
+        let (mut best, starts) = match (begun, errors) {
+            (Some(found), _) => (found.best, found.starts),
+            (None, 0) => {
                 let (found, starts) = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
                 (found.on(problem, &level)?, starts)
             }
-            _ => together(problem, &level, is_stated)?,
+            (None, _) => together(problem, &level, is_stated)?,
         };
         let mut estimated = problem.clone();
         if errors > 0 {
@@ -200,11 +215,19 @@ impl SpatialStudy {
     }
 
     /// Where the substructures' functions have noise.
-    fn beside_noise(&self, rms: &Deviations, part: f64) -> Result<Found, SpatialError> {
+    fn beside_noise(
+        &self,
+        rms: &Deviations,
+        part: f64,
+        begun: Option<Found>,
+    ) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let level = parts(rms, part);
         let noise = self.noise;
-        let (best, starts) = searched_beside(problem, &level, noise)?;
+        let (best, starts) = match begun {
+            Some(found) => (found.best, found.starts),
+            None => searched_beside(problem, &level, noise)?,
+        };
         let mut has_converged = best.has_converged;
         let mut unknowns = best.unknowns;
         // joint and set-up at more lines
@@ -272,6 +295,13 @@ impl SpatialStudy {
     }
 
     fn result(&self, found: &Found) -> Result<SpatialIdentification, SpatialError> {
+        self.numbers(found).map_err(|error| match error {
+            SpatialError::NotDetermined => undetermined(found.joint.has_converged, found.starts),
+            other => other,
+        })
+    }
+
+    fn numbers(&self, found: &Found) -> Result<SpatialIdentification, SpatialError> {
         let problem = &self.problem;
         let sought = problem.only()?;
         let model = sought.model;
@@ -348,6 +378,8 @@ impl SpatialStudy {
         if result.relative_rms < LARGEST_RESIDUAL {
             result.warnings = odd_channels(&compared, &alone.unknowns)?;
         }
+        let of_budget = contradicted::warnings(problem, &result.errors);
+        result.warnings.extend(of_budget);
         result.warnings.extend(richer.iter().map(Richer::warning));
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
         let of_energy = reasons::of_energy(squares_from_free, count);

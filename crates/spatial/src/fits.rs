@@ -78,7 +78,7 @@ impl Problem {
         let first = self.joint_count();
         let parameters = self.sides.iter().flat_map(Side::parameters);
         parameters
-            .zip(self.error_deviations())
+            .zip(self.budget_deviations())
             .enumerate()
             .map(|(n, ((placed, parameter), expected))| SetUpError {
                 key: placed.key(parameter.place),

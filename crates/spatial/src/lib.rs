@@ -14,6 +14,7 @@ mod budget;
 mod chain;
 mod compliant;
 mod consistency;
+mod contradicted;
 mod dyads;
 mod error;
 mod estimate;

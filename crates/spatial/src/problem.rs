@@ -39,6 +39,8 @@ pub(crate) struct Problem {
     pub(crate) links: Links,
     /// Of the set-ups; `None` where they are exact.
     pub(crate) tolerances: Option<Tolerances>,
+    /// By how much the deviation of each error of the set-up is wider than the tolerances say; empty where none is.
+    pub(crate) wider: Vec<f64>,
     /// Stiffnesses that balance the structures in each motion of the joints that are sought, N/m and N·m/rad: 1/|H_ii|. Where they
     /// are known, steps follow the functions.
     pub(crate) balance: Option<Vec<f64>>,
@@ -86,6 +88,7 @@ impl Problem {
             observed: self.observed.iter().map(observed).collect(),
             links: self.links.clone(),
             tolerances: self.tolerances,
+            wider: self.wider.clone(),
             balance: self.balance.clone(),
         }
     }
@@ -151,19 +154,29 @@ impl Problem {
             return Ok(own);
         }
         own.tolerances = None;
+        own.wider.clear();
         for (side, errors) in own.sides.iter_mut().zip(errors) {
             *side = side.displaced(errors)?;
         }
         Ok(own)
     }
 
-    /// Standard deviations of the errors of the set-up before anything is measured.
-    pub(crate) fn error_deviations(&self) -> Vec<f64> {
+    /// Standard deviations of the errors of the set-up, as the budget has them.
+    pub(crate) fn budget_deviations(&self) -> Vec<f64> {
         let Some(tolerances) = &self.tolerances else {
             return Vec::new();
         };
         let of = |side: &Side| side.deviations(tolerances);
         self.sides.iter().flat_map(of).collect()
+    }
+
+    /// Those with which they are estimated.
+    pub(crate) fn error_deviations(&self) -> Vec<f64> {
+        let mut all = self.budget_deviations();
+        for (own, factor) in all.iter_mut().zip(&self.wider) {
+            *own *= factor;
+        }
+        all
     }
 
     pub(crate) fn omega(&self, line: usize) -> f64 {

@@ -74,6 +74,7 @@ fn sample(sides: [Side; 2], lengths_m: &[f64], [rows, columns]: [&[usize]; 2]) -
         frequency_hz: vec![100.0, 130.0],
         links: Links(lengths_m.iter().enumerate().map(link).collect()),
         tolerances: Some(Tolerances::TYPICAL),
+        wider: Vec::new(),
         balance: None,
     }
 }

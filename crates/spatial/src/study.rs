@@ -93,6 +93,7 @@ impl SpatialStudy {
             assumed: chain.assumed,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides, &chain.parts)?,
+                wider: Vec::new(),
                 balance: None,
                 sides,
                 frequency_hz,
@@ -331,12 +332,38 @@ impl Reader<'_> {
         Ok((observed, left_out))
     }
 
+    /// Refuses what another model needs: its user takes it for said.
+    fn ensure_of_model(
+        &self,
+        key: &str,
+        model: ModelName,
+        table: &JointTable,
+    ) -> Result<(), StudyError> {
+        for (own, is_there, models) in keys_of_models(table) {
+            let names: Vec<String> = models
+                .iter()
+                .map(|&model| format!("\"{}\"", model_name(model)))
+                .collect();
+            self.study.ensure(
+                !is_there || models.contains(&model),
+                format_args!("{key}.{own}"),
+                format_args!("it beside model = \"{}\"", model_name(model)),
+                format_args!(
+                    "it beside {} alone; remove it, or state that model",
+                    names.join(" or ")
+                ),
+            )?;
+        }
+        Ok(())
+    }
+
     pub(crate) fn model(
         &self,
         key: &str,
         model: ModelName,
         table: &JointTable,
     ) -> Result<Parametrisation, StudyError> {
+        self.ensure_of_model(key, model, table)?;
         let axis = table.axis.map_or(Vector3::z(), Vector3::from);
         let mirrors = match table.twisted {
             true => Mirrors::Lost,
@@ -391,6 +418,22 @@ impl Reader<'_> {
             })
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
     }
+}
+
+/// Keys of a joint that only some models have: the key, whether it is there, and the models.
+fn keys_of_models(table: &JointTable) -> [(&'static str, bool, &'static [ModelName]); 5] {
+    use ModelName::{Bolt, BoltCircle, Bolts, TwoBolts};
+    [
+        (
+            "axis",
+            table.axis.is_some(),
+            &[Bolt, TwoBolts, BoltCircle, Bolts],
+        ),
+        ("line", table.line.is_some(), &[TwoBolts]),
+        ("bolts", table.bolts.is_some(), &[BoltCircle]),
+        ("positions", table.positions.is_some(), &[Bolts]),
+        ("twisted", table.twisted, &[Bolt, TwoBolts, BoltCircle]),
+    ]
 }
 
 /// As the study has it.

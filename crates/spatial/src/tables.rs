@@ -258,7 +258,7 @@ pub(crate) struct MatricesTable {
     pub(crate) damping: Vec<Vec<f64>>,
 }
 
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ModelName {
     Translations,

@@ -77,6 +77,28 @@ fn of_name(name: &str) -> Option<Quantity> {
     Quantity::named(name).filter(|_| is_known)
 }
 
+/// What the array `quantity` says, or the matrix's own name, where nobody knows better.
+fn one_quantity(
+    stated: Option<Quantity>,
+    matrix: &str,
+    options: &ReadOptions,
+) -> Result<Option<Quantity>, TableProblem> {
+    let by_name = of_name(matrix);
+    match (stated, by_name) {
+        (Some(stated), Some(by_name)) if stated != by_name && options.quantity.is_none() => {
+            Err(TableProblem::at(
+                "array quantity",
+                format_args!("{stated} beside a matrix named {matrix}"),
+                format_args!(
+                    "one quantity; correct one of them, or name the matrix frf, or state the right one in the study, such as \
+                     quantity = \"{by_name}\" beside frf"
+                ),
+            ))
+        }
+        _ => Ok(stated.or(by_name)),
+    }
+}
+
 fn functions_of<F: ArrayFile>(
     file: &mut F,
     path: &Path,
@@ -109,7 +131,7 @@ fn functions_of<F: ArrayFile>(
         .text("quantity")?
         .map(|text| quantity(&text))
         .transpose()?;
-    let unit = members.text("unit")?;
+    let units = members.units([counts.responses, counts.references])?;
     let averages = members.averages()?;
     let of_matrix = matrix.as_ref().or(coherence.as_ref());
     let of_matrix = of_matrix.cloned().unwrap_or_default();
@@ -146,8 +168,8 @@ fn functions_of<F: ArrayFile>(
     let (stated, lines) = match &matrix {
         Some(matrix) => {
             taken.push(("functions", matrix.clone()));
-            let quantity = quantity.or_else(|| of_name(matrix));
-            let stated = functions.stated(quantity, unit.as_deref())?;
+            let quantity = one_quantity(quantity, matrix, options)?;
+            let stated = functions.stated(quantity, &units)?;
             (
                 stated,
                 functions.gather(members.numbers(matrix)?, &matrix_place)?,

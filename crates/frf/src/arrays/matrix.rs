@@ -64,20 +64,25 @@ impl Functions<'_> {
         self.options.selection.wants(response, reference)
     }
 
-    /// What each function is, if it is asked for.
+    /// What each function is, if it is asked for; there is one unit for all, or one for each, or none.
     pub(super) fn stated(
         &self,
         quantity: Option<Quantity>,
-        unit: Option<&str>,
+        units: &[String],
     ) -> Result<Vec<Option<Stated>>, TableProblem> {
         self.pairs
             .iter()
-            .map(|&(response, reference)| {
+            .enumerate()
+            .map(|(place, &(response, reference))| {
+                let unit = match units {
+                    [one] => Some(one),
+                    all => all.get(place),
+                };
                 let statement = Statement {
                     response,
                     reference,
                     quantity,
-                    unit,
+                    unit: unit.map(String::as_str),
                 };
                 self.wants((response, reference))
                     .then(|| statement.decide(self.options))

@@ -123,6 +123,43 @@ impl<F: ArrayFile> Members<'_, F> {
         Ok(texts::<F>(name, array, |_| Ok(()))?.pop())
     }
 
+    /// Units: none, one for all functions, or one for each response (row) and reference, row by row.
+    pub(super) fn units(
+        &mut self,
+        [responses, references]: [usize; 2],
+    ) -> Result<Vec<String>, TableProblem> {
+        // archives of before have both
+        let of_each = self.find(&["units"])?;
+        let Some(name) = of_each.map_or_else(|| self.find(&["unit"]), |name| Ok(Some(name)))?
+        else {
+            return Ok(Vec::new());
+        };
+        let array = self.array(&name)?;
+        let long = |shape: &[usize]| -> Vec<usize> {
+            let lengths = shape.iter().copied();
+            lengths.filter(|&length| length != 1).collect()
+        };
+        let [own, all] = [long(array.shape()), long(&[responses, references])];
+        if !own.is_empty() && own != all {
+            let expected = format_args!(
+                "one unit, or {responses} × {references}: one for each response and reference"
+            );
+            return Err(value(
+                &name,
+                format_args!("shape {:?}", array.shape()),
+                expected,
+            ));
+        }
+        let by_columns = array.fortran_order() && own.len() > 1;
+        let texts = texts::<F>(&name, array, |_| Ok(()))?;
+        Ok(match by_columns {
+            false => texts,
+            true => (0..texts.len())
+                .map(|n| texts[n / references + n % references * responses].clone())
+                .collect(),
+        })
+    }
+
     pub(super) fn averages(&mut self) -> Result<Option<f64>, TableProblem> {
         let Some(name) = self.find(&["averages", "n_averages", "averages_n"])? else {
             return Ok(None);

@@ -48,6 +48,30 @@ impl Keys {
     }
 }
 
+/// What a row above the numbers is, where it does not name all columns as it should.
+pub(super) enum Above {
+    /// The row of names: its first cell names the frequency.
+    Names,
+    /// A line for people.
+    Title,
+    /// Numbers already.
+    Numbers,
+}
+
+impl Above {
+    /// Tells by the first cell.
+    pub(super) fn of(row: &str) -> Self {
+        let mut cells = Cells::separated_by(separator(row));
+        let first = cells.names(row).first().copied().unwrap_or_default();
+        let word = first.split(['_', '[', '(', ' ']).next();
+        match Decimal::Either.parse(first) {
+            Some(_) => Self::Numbers,
+            None if word.is_some_and(is_frequency) => Self::Names,
+            None => Self::Title,
+        }
+    }
+}
+
 /// The row of column names, as far as it has been read.
 pub(super) struct Names {
     separator: char,
@@ -194,11 +218,8 @@ fn frequency_unit(name: &str) -> Result<Option<String>, TableProblem> {
         Some((word, unit)) => (word, Some(unit)),
         None => split_unit(name),
     };
-    let is_frequency = ["frequency", "freq", "f"]
-        .iter()
-        .any(|known| word.eq_ignore_ascii_case(known));
     let is_hertz = unit.is_none_or(|unit| unit.eq_ignore_ascii_case("hz"));
-    match is_frequency && is_hertz {
+    match is_frequency(word) && is_hertz {
         true => Ok(unit.map(str::to_owned)),
         false => Err(TableProblem::at(
             "column 1",
@@ -206,4 +227,10 @@ fn frequency_unit(name: &str) -> Result<Option<String>, TableProblem> {
             "\"frequency [Hz]\" as the first column's name; write a header row, and frequencies in Hz",
         )),
     }
+}
+
+fn is_frequency(word: &str) -> bool {
+    ["frequency", "freq", "f"]
+        .iter()
+        .any(|known| word.eq_ignore_ascii_case(known))
 }

@@ -9,7 +9,7 @@ use bolted_joint_files::text_table::{Cells, is_blank, is_for_excel};
 use num_complex::Complex64;
 
 use super::column::{Columns, Form};
-use super::header::{Header, Keys, Names};
+use super::header::{Above, Header, Keys, Names};
 use super::phase::Phases;
 use super::row::Row;
 use crate::gathered::Gathered;
@@ -21,13 +21,17 @@ use crate::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions, TableProbl
 /// The longest line that is still taken for a table, bytes.
 const LONGEST_LINE: usize = 1 << 20;
 
+/// The last line on which a title may stand above the names.
+const TITLES: usize = 50;
+
 /// Reads the functions of a table (CSV).
 ///
 /// The first row names the columns: `frequency [Hz]`, then for each function two columns such as
 /// `11:+Y/2:+Y real [m/N]` and `11:+Y/2:+Y imaginary [m/N]`, or `… magnitude [m/N]` and `… phase [deg]`, or one column
 /// `… complex [m/N]`, and perhaps `… coherence`. Units may stand in a row of their own below the names, and a magnitude may be
-/// in decibels, `[dB re 1 m/N]`. A table of coherences alone gives these and no function. Lines that begin with `#` are comments; `# quantity = …`, `# unit = …` and `# averages = …` hold for all
-/// functions that do not say otherwise. Values become receptances in SI units.
+/// in decibels, `[dB re 1 m/N]`. A table of coherences alone gives these and no function. Lines that begin with `#` are comments, and
+/// so are titles above the names; `# quantity = …`, `# unit = …` and `# averages = …` hold for all functions that do not say otherwise,
+/// with and without the `#`. Values become receptances in SI units.
 ///
 /// # Errors
 /// [`FrfError::Read`] if the file cannot be read, [`FrfError::Csv`] with line and cause if it cannot be used.
@@ -68,12 +72,16 @@ pub fn read_csv_from(
         held: false,
     };
     let mut keys = Keys::default();
+    // what was refused first of the rows above the names
+    let mut title = None;
     let mut names = loop {
         if !rows.advance()? {
-            return Err(rows.problem(TableProblem::whole(
-                "no header row",
-                "column names such as \"frequency [Hz]\" and \"11:+Y/2:+Y real [m/N]\"; write them above the numbers",
-            )));
+            return Err(title.unwrap_or_else(|| {
+                rows.problem(TableProblem::whole(
+                    "no header row",
+                    "column names such as \"frequency [Hz]\" and \"11:+Y/2:+Y real [m/N]\"; write them above the numbers",
+                ))
+            }));
         }
         let text = rows.text();
         match text.trim() {
@@ -83,7 +91,20 @@ pub fn read_csv_from(
                 keys.read(comment)
                     .map_err(|problem| rows.problem(problem))?;
             }
-            row => break Names::read(row).map_err(|problem| rows.problem(problem))?,
+            row => match Names::read(row) {
+                Ok(names) => break names,
+                Err(problem) => {
+                    let refused = rows.problem(problem);
+                    match Above::of(row) {
+                        Above::Names => return Err(refused),
+                        Above::Title if rows.number <= TITLES => {
+                            keys.read(row).map_err(|problem| rows.problem(problem))?;
+                            title.get_or_insert(refused);
+                        }
+                        _ => return Err(title.unwrap_or(refused)),
+                    }
+                }
+            },
         }
     };
     let header_line = rows.number;
@@ -386,11 +407,24 @@ mod tests {
             format!("{NAMES};\nHz;m/s^2/N;;\n5;1,5;0,25;\n6;1,6;0,26;\n"),
             format!("{NAMES}\r5;1,5;0,25\r6;1,6;0,26\r"),
             format!("{NAMES}\r\n5;1,5;0,25\r\n6;1,6;0,26"),
+            format!("Export of 3 May\nUser: me;;\n\n{NAMES}\n5;1,5;0,25\n6;1,6;0,26\n"),
             format!("# averages = 10;;\n{NAMES}\r\r\n5;1,5;0,25\r\r\n6;1,6;0,26"),
         ] {
             assert_eq!(read(&text), Ok(plain), "{text:?}");
         }
         for (text, refused) in [
+            (
+                format!("Measured\nBeam; 2\n1;2;3\n{NAMES}\n5;1,5;0,25\n"),
+                "line 1: column 1: found \"Measured\"",
+            ),
+            (
+                format!("Measured\nquantity: work\n{NAMES}\n5;1,5;0,25\n"),
+                "line 2: found quantity = \"work\"",
+            ),
+            (
+                format!("Measured\n{}\n5;1,5;0,25\n", NAMES.replace("[Hz]", "[kHz]")),
+                "line 2: column 1: found \"frequency [kHz]\"",
+            ),
             (
                 format!("{NAMES}\n5;1,5;0,25;7\n"),
                 "line 2: found 4 fields, expected 3",

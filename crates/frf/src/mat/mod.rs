@@ -282,14 +282,18 @@ impl<R: Read> Matrix<R> {
     }
 
     /// The text of the next cell.
-    fn cell(&mut self) -> io::Result<String> {
+    fn cell(&mut self) -> Result<String, Stop> {
         let (tag, big_endian) = (self.elements.tag()?, self.elements.big_endian);
         let data = Elements::new(self.elements.data(tag), big_endian);
         let mut cell = Matrix::begin(data, tag.bytes)?;
         cell.check_size()?;
         match (cell.class, cell.shape.first()) {
             (Class::Characters, Some(0 | 1)) => Ok(cell.rows(1)?.concat()),
-            _ => Err(invalid("a cell that is no line of text".to_owned())),
+            _ => Err(Stop::Problem(TableProblem::at(
+                format_args!("array {}", self.name),
+                "a cell that is no line of text",
+                "a cell array of texts such as {'11:+Y', '12:+Y'}",
+            ))),
         }
     }
 

@@ -1,4 +1,4 @@
-"""What archives of `Functions.save` have beside the arrays of any archive: units of each function, and deviations."""
+"""What archives of `Functions.save` have beside the arrays of any archive: deviations; and SI units."""
 
 import os
 import zipfile
@@ -18,14 +18,6 @@ def unit(quantity: str, response: str, reference: str) -> str:
     """The SI unit of a function, such as ``m/s^2/N``."""
     motion, load = ("rad" if _is_rotation(response) else "m", "(N·m)" if _is_rotation(reference) else "N")
     return f"{motion}{_OVER_TIME[quantity]}/{load}"
-
-
-def states_si(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is an archive that states the units of each function, which are SI units then.
-
-    The command line knows one unit for all, which functions of rotations beside translations do not have.
-    """
-    return _member(path, "units") is not None
 
 
 def deviation(path: str | os.PathLike[str], functions: "Functions") -> NDArray[np.float64] | None:

@@ -252,10 +252,6 @@ class Functions:
             "quantity": self.quantity,
             "units": [[unit(self.quantity, *pair) for pair in row] for row in self._pairs()],
         }
-        (alone, *others) = dict.fromkeys(label for row in arrays["units"] for label in row) or [""]
-        if alone and not others:
-            # what the command line reads, which has one word for all functions
-            arrays["unit"] = alone
         if self.magnitude_deviation is not None:
             arrays["magnitude_deviation"] = self.magnitude_deviation
         if self.coherence is not None:
@@ -342,8 +338,7 @@ def _names(argument: str, names: Sequence[str]) -> tuple[str, ...]:
                 f'{argument}: found {name!r}, expected NODE:DIRECTION such as "11:+Y": a number, and X, Y, Z, RX, RY '
                 "or RZ with its sign"
             )
-        node, direction = name.strip().upper().split(":")
-        dof = (int(node), direction.removeprefix("+"))
+        dof = _dof(name)
         if dof in known:
             raise BoltedJointError(f"{argument}: found {name!r} twice, expected each DOF once")
         known.add(dof)
@@ -375,11 +370,18 @@ def lines_of(argument: str, frequency_hz: ArrayLike) -> NDArray[np.float64]:
     return found
 
 
+def _dof(name: str) -> tuple[int, str]:
+    """Node and direction of a DOF, however it is written: 2:y is 2:+Y."""
+    node, direction = name.strip().upper().split(":")
+    return int(node), direction.removeprefix("+")
+
+
 def _index(names: tuple[str, ...], name: str) -> int:
-    try:
-        return names.index(name)
-    except ValueError:
-        raise BoltedJointError(f"found {name!r}, expected one of {', '.join(names)}") from None
+    if isinstance(name, str) and _DOF.fullmatch(name):
+        for place, known in enumerate(names):
+            if _dof(known) == _dof(name):
+                return place
+    raise BoltedJointError(f"found {name!r}, expected one of {', '.join(names)}")
 
 
 def _unmasked(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:

@@ -101,7 +101,7 @@ def together(
             found = _curves_of(source, quantity, factors)
         else:
             found = _curves(source, quantity, averages, factors)
-            if not (found.units_are_stated or is_quiet or _archive.states_si(source)):
+            if not (found.units_are_stated or is_quiet):
                 message = f"{os.fspath(source)}: the file states no units; SI is assumed"
                 warnings.warn(message, stacklevel=3)
             if not found.functions:
@@ -244,6 +244,9 @@ def unit_factors(units: Mapping[str, str]) -> tuple[float, float]:
     if not isinstance(units, Mapping):
         expected = 'a dictionary such as {"length": "mm", "force": "N"}'
         raise BoltedJointError(f"units: found {units!r}, expected {expected}")
+    for key in units:
+        if key not in ("length", "force"):
+            raise BoltedJointError(f"units: found the key {key!r}, expected length and force")
     found = []
     for key, known, names in [
         ("length", _LENGTHS, "m, cm, mm, um, in, ft, mil"),

@@ -70,9 +70,14 @@ def array_of(argument: str, values: ArrayLike, kind: Any) -> NDArray[Any]:
         With the argument's name, where values are no numbers or no array.
     """
     try:
+        found = np.array(values)
+        # NumPy would drop imaginary parts, and take true for 1
+        if found.dtype.kind == "b" or found.dtype.kind == "c" and np.dtype(kind).kind != "c":
+            raise TypeError(f"{found.dtype.name} values")
         return np.array(values, dtype=kind)
     except (ValueError, TypeError) as error:
-        raise BoltedJointError(f"{argument}: found what is no array of numbers ({error}), expected one") from error
+        expected = "complex or real numbers" if np.dtype(kind).kind == "c" else "real numbers"
+        raise BoltedJointError(f"{argument}: found what is no array of numbers ({error}), expected {expected}") from error
 
 
 def whole(argument: str, value: Any, least: int) -> int:

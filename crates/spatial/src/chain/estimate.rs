@@ -158,6 +158,7 @@ impl ChainStudy {
         }
         let mut problem = self.problem.clone();
         problem.tolerances = None;
+        problem.wider.clear();
         let (observed, zero_functions) = self.observed()?;
         problem.observed = observed;
         Ok((problem, zero_functions))

@@ -67,6 +67,7 @@ impl ChainStudy {
             observed: Vec::new(),
             links: Links(links.to_vec()),
             tolerances: None,
+            wider: Vec::new(),
             balance: None,
         };
         let [a, b] = &problem.sides;

@@ -131,6 +131,7 @@ impl ChainStudy {
         let problem = Problem {
             links: Links(links),
             tolerances: None,
+            wider: Vec::new(),
             balance: None,
             observed: Vec::new(),
             ..self.problem.clone()

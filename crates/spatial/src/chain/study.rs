@@ -252,6 +252,7 @@ impl ChainStudy {
             motions,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides, &parts)?,
+                wider: Vec::new(),
                 balance: None,
                 sides,
                 frequency_hz,

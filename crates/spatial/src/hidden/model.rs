@@ -58,6 +58,7 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
             .collect(),
         links: problem.links.clone(),
         tolerances: None,
+        wider: Vec::new(),
         balance: None,
     }
 }

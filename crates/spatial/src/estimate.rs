@@ -16,6 +16,7 @@ use crate::problem::{Level, Problem, Unknowns};
 use crate::reasons;
 use crate::richer::{Richer, richer};
 use crate::search::{BY_CHANCE, SEARCHED, searched};
+use crate::shifted;
 use crate::spread::Spread;
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
@@ -96,8 +97,9 @@ impl SpatialStudy {
         let mut own = self.clone();
         for _ in 0..ROUNDS {
             // what a budget that does not hold draws back draws the joint with it
+            let is_near = found.joint.has_converged && result.relative_rms < LARGEST_RESIDUAL;
             let wider = contradicted::wider(&own.problem, &found.best.unknowns)
-                .filter(|_| found.joint.has_converged && result.relative_rms < LARGEST_RESIDUAL);
+                .filter(|_| is_near && result.reasons_against.is_empty());
             let Some(wider) = wider else { break };
             own.problem.wider = wider;
             found = own.found(&rms, Some(found))?;
@@ -384,6 +386,10 @@ impl SpatialStudy {
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
         let of_energy = reasons::of_energy(squares_from_free, count);
         result.reasons_against.extend(of_energy);
+        if best.has_converged && errors > 0 {
+            let of_places = shifted::reason(problem, &best.unknowns, &spread.together);
+            result.reasons_against.extend(of_places);
+        }
         if best.has_converged {
             let of_nothing = reasons::of_nothing(&result.unknowns);
             result.reasons_against.extend(of_nothing);

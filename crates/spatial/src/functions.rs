@@ -6,7 +6,7 @@ use bolted_joint_study::{LineChoice, Paths, StudyError, UnitsTable};
 use crate::study::Reader;
 
 /// Frequencies that are the same, in parts.
-const SAME: f64 = 1e-6;
+const SAME: f64 = 1e-5;
 
 /// A file of functions, and what the study says of it.
 pub(crate) struct FileOfFunctions<'t> {
@@ -58,11 +58,11 @@ impl Reader<'_> {
         found: &[f64],
         expected: &[f64],
     ) -> Result<(), StudyError> {
-        let are_same = found.len() == expected.len()
-            && found
-                .iter()
-                .zip(expected)
-                .all(|(one, other)| (one - other).abs() <= SAME * other.abs());
+        let mut pairs = found.iter().zip(expected);
+        let other = pairs.find(|(one, other)| (*one - *other).abs() > SAME * other.abs());
+        let are_same = found.len() == expected.len() && other.is_none();
+        let at = other
+            .map(|(one, other)| format!("; the first that differs is {one} Hz for {other} Hz"));
         let ends = |all: &[f64]| match (all.first(), all.last()) {
             (Some(first), Some(last)) => format!("{} lines from {first} to {last} Hz", all.len()),
             _ => "no lines".to_owned(),
@@ -71,7 +71,11 @@ impl Reader<'_> {
             are_same,
             key,
             ends(found),
-            format_args!("the lines of the other files, {}", ends(expected)),
+            format_args!(
+                "the lines of the other files, {}{}",
+                ends(expected),
+                at.unwrap_or_default()
+            ),
         )
     }
 }

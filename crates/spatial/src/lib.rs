@@ -43,6 +43,7 @@ mod rigid;
 #[cfg(test)]
 mod samples;
 mod search;
+mod shifted;
 mod side;
 mod spread;
 mod starts;

@@ -1,5 +1,6 @@
 //! A study of method `frf-space`, checked, with its functions read.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::str::FromStr as _;
 
@@ -80,6 +81,14 @@ impl SpatialStudy {
         let (sides, link) = chain.two_sides()?;
         let (observed, zero_functions) = reader.observed(&sides, chain.assembly.as_ref())?;
         let frequency_hz = chain.problem.frequency_hz.clone();
+        let mut assumed = chain.assumed.clone();
+        assumed.extend(chain.at_known_joints());
+        assumed.extend(
+            chain
+                .assembly
+                .as_ref()
+                .and_then(|assembly| unmatched(&sides, &observed, assembly)),
+        );
         Ok(Self {
             motions: chain.motions,
             path: study.path().to_owned(),
@@ -90,7 +99,7 @@ impl SpatialStudy {
             level: chain.level,
             noise: chain.noise,
             zero_functions,
-            assumed: chain.assumed,
+            assumed,
             problem: Problem {
                 tolerances: reader.tolerances(&file.budget, &sides, &chain.parts)?,
                 wider: Vec::new(),
@@ -418,6 +427,50 @@ impl Reader<'_> {
             })
             .map_err(|source| StudyError::model(self.study.path(), Some(key), source))
     }
+}
+
+/// A remark on DOFs of the parts of which the assembly has no function: channels that were renamed or forgotten; with the nodes of the
+/// assembly that no part has.
+fn unmatched(sides: &[Side; 2], observed: &[Observed], assembly: &FrfSet) -> Option<String> {
+    let [a, b] = sides;
+    let listed = |all: &[&Dof]| {
+        let names: Vec<String> = all.iter().map(|dof| dof.to_string()).collect();
+        names.join(", ")
+    };
+    let mut missing = Vec::new();
+    let kinds = [
+        (0, "responses", [&a.responses, &b.responses]),
+        (1, "references", [&a.references, &b.references]),
+    ];
+    let mut nodes: Vec<_> = Vec::new();
+    for (which, kind, dofs) in kinds {
+        let all: Vec<&Dof> = dofs.into_iter().flatten().collect();
+        nodes.extend(all.iter().map(|dof| dof.node()));
+        let without: Vec<&Dof> = (0..all.len())
+            .filter(|&place| observed.iter().all(|one| one.at[which] != place))
+            .map(|place| all[place])
+            .collect();
+        if !without.is_empty() {
+            missing.push(format!("{kind} {}", listed(&without)));
+        }
+    }
+    if missing.is_empty() {
+        return None;
+    }
+    let foreign: BTreeSet<_> = assembly
+        .functions()
+        .flat_map(|(response, reference, _)| [response.node(), reference.node()])
+        .filter(|node| !nodes.contains(node))
+        .collect();
+    let foreign: Vec<String> = foreign.iter().map(ToString::to_string).collect();
+    let of_others = match foreign.is_empty() {
+        true => String::new(),
+        false => format!("; its nodes {} are of no part", foreign.join(", ")),
+    };
+    Some(format!(
+        "assembly.frf: no function with the {} of the parts{of_others}: points have one number in all files",
+        missing.join(", nor with the ")
+    ))
 }
 
 /// Keys of a joint that only some models have: the key, whether it is there, and the models.

@@ -36,6 +36,33 @@ impl ChainStudy {
         Ok(([before, behind], joint.link.clone()))
     }
 
+    /// A remark on interfaces at known joints with sensors or impacts, where set-ups have errors: those of these take no part.
+    pub(crate) fn at_known_joints(&self) -> Option<String> {
+        self.problem.tolerances.as_ref()?;
+        let sought: Vec<usize> = (self.problem.links.sought().iter())
+            .map(|joint| joint.number)
+            .collect();
+        let known = (0..self.problem.links.0.len()).filter(|number| !sought.contains(number));
+        let both = known.flat_map(|number| {
+            [
+                interface_at(&self.parts[number], number, false),
+                interface_at(&self.parts[number + 1], number, true),
+            ]
+        });
+        let names: Vec<&str> = both
+            .filter(|one| !(one.sensors.is_empty() && one.impacts.is_empty()))
+            .map(|one| one.name.as_str())
+            .collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "{}: errors of sensors and impacts at a known joint take no part in the estimate, which takes these as exact: deviations \
+                 are too small by what they do, and one that is a millimetre off can spoil the result; best are functions of its six \
+                 motions there (interface = NODE)",
+                names.join(", ")
+            )
+        })
+    }
+
     /// Parts with known joints between them, the channels and impacts of one interface first.
     fn side(
         &self,

@@ -106,6 +106,7 @@ impl ChainStudy {
         let chosen = chosen(links, aim)?;
         let test = self.test(&self.parts, &values, noise, usize::MAX)?;
         warnings.extend(self.assumed.iter().cloned());
+        warnings.extend(self.at_known_joints());
         warnings.extend(advice(&test.problem.sides));
         let (unknowns, apart, lines) = test.unknowns()?;
         let all = test.problem.frequency_hz.len();

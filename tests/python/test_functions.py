@@ -310,3 +310,105 @@ def test_coherence_may_be_in_a_file_of_its_own(tmp_path):
     assert read.averages == 8
     with pytest.raises(BoltedJointError, match=r"frf\.csv: found no coherence"):
         bolted_joint.read(functions, coherence=[functions])
+
+
+@pytest.mark.filterwarnings("error::numpy.exceptions.ComplexWarning")
+@pytest.mark.parametrize("ending", ["npz", "csv"])
+def test_coherence_is_kept_where_a_line_at_0_hz_is_left_out(tmp_path, ending):
+    """As analysers export accelerances: a receptance has no value there."""
+    frequency = np.array([0.0, 1.0, 2.0])
+    coherence = np.arange(12).reshape(H.shape) / 12.0
+    Functions(frequency, H, NAMES, NAMES, quantity="accelerance", coherence=coherence).save(tmp_path / f"a.{ending}")
+    read = bolted_joint.read(tmp_path / f"a.{ending}")
+    np.testing.assert_array_equal(read.frequency_hz, frequency[1:])
+    np.testing.assert_array_equal(read.coherence, coherence[1:])
+    beside = bolted_joint.read(tmp_path / f"a.{ending}", coherence=tmp_path / f"a.{ending}")
+    np.testing.assert_array_equal(beside.coherence, coherence[1:])
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_does_not_belong_to_the_functions_is_refused(tmp_path):
+    def written(name, frequency=F, names=NAMES, **more):
+        Functions(frequency, H, names, NAMES, **more).save(tmp_path / name)
+        return tmp_path / name
+
+    gamma = np.full(H.shape, 0.5)
+    own = written("own.npz", averages=10)
+    others = written("others.npz", names=["3:+Y", "4:+Y"], averages=1000)
+    lines = written("lines.npz", frequency=F + 0.5, coherence=gamma)
+    strange = written("strange.npz", names=["3:+Y", "4:+Y"], coherence=gamma)
+    for arguments, named, said in [
+        (([own, others],), {}, "others.npz: found 1000 averages, and 10 before it"),
+        ((own,), {"coherence": lines}, "at other lines than the function"),
+        ((own,), {"coherence": strange}, "strange.npz: coherence: found that of 3:+Y/1:+Y and of no function"),
+        ((own,), {"units": {"length": "mm", "force": "N", "mass": "t"}}, "units: found the key 'mass'"),
+    ]:
+        with pytest.raises(BoltedJointError, match=re.escape(said)):
+            bolted_joint.read(*arguments, **named)
+    assert bolted_joint.read([own, others], averages=20).averages == 20
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_coherence_of_some_functions_goes_into_a_table(tmp_path):
+    coherence = np.full(H.shape, 0.5)
+    coherence[:, 0, 1] = np.nan
+    functions = Functions(F, H, NAMES, NAMES, coherence=coherence)
+    with pytest.raises(BoltedJointError, match="coherence for some of them only"):
+        functions.save(tmp_path / "a.npz")
+    functions.save(tmp_path / "a.csv")
+    np.testing.assert_array_equal(bolted_joint.read(tmp_path / "a.csv").coherence, coherence)
+    coherence[0, 1, 1] = np.nan
+    with pytest.raises(BoltedJointError, match="coherence: found NaN at some lines of 2:.Y/2:.Y"):
+        Functions(F, H, NAMES, NAMES, coherence=coherence)
+
+
+def test_units_of_an_archive_are_honoured(tmp_path):
+    """Whoever wrote it: one for all, or one for each function."""
+    arrays = {"frequency": F, "frf": H, "response": ["1:+Y", "1:+RZ"], "reference": ["2:+Y", "2:+RZ"]}
+    arrays |= {"axes": "frequency,response,reference", "quantity": "receptance"}
+    units = [["mm/N", "mm/(N·m)"], ["rad/kN", "rad/(N·m)"]]
+    factors = np.array([[1e-3, 1e-3], [1e-3, 1.0]])
+    for order in ("C", "F"):
+        np.savez(tmp_path / "a.npz", **arrays, units=np.array(units, order=order))
+        read = bolted_joint.read(tmp_path / "a.npz")
+        np.testing.assert_allclose(read.values, H * factors, rtol=1e-14)
+    of_one = {**arrays, "response": ["1:+Y", "3:+Y"], "reference": ["2:+Y", "4:+Y"]}
+    np.savez(tmp_path / "a.npz", **of_one, units="mm/N")
+    np.testing.assert_allclose(bolted_joint.read(tmp_path / "a.npz").values, 1e-3 * H, rtol=1e-14)
+    np.savez(tmp_path / "a.npz", **arrays, units=units[0])
+    with pytest.raises(BoltedJointError, match=re.escape("array units: found shape [2], expected one unit, or 2 × 2")):
+        bolted_joint.read(tmp_path / "a.npz")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_other_arrays_of_an_archive_are_not_looked_at(tmp_path):
+    arrays = {"freq": F, "frf": H, "response": NAMES, "reference": [b"1:+Y", b"2:+Y"], "axes": "frequency,response,reference"}
+    for beside in ({}, {"magnitude_deviation": np.ones(3)}, {"magnitude_deviation": np.ones(H.shape)}):
+        np.savez(tmp_path / "a.npz", **arrays, quantity="receptance", **beside)
+        read = bolted_joint.read(tmp_path / "a.npz")
+        np.testing.assert_array_equal(read.values, H)
+        assert read.magnitude_deviation is None
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_damaged_archive_is_refused(tmp_path):
+    """One bit of the numbers, which nothing but the archive's sum tells."""
+    Functions(F, H, NAMES, NAMES).save(tmp_path / "a.npz")
+    data = bytearray((tmp_path / "a.npz").read_bytes())
+    place = data.index(H.astype(complex).tobytes()) + 21
+    data[place] ^= 4
+    (tmp_path / "a.npz").write_bytes(data)
+    with pytest.raises(BoltedJointError, match="array frf: found damaged data"):
+        bolted_joint.read(tmp_path / "a.npz")
+
+
+def test_a_dof_may_be_written_without_its_sign():
+    functions = Functions(F, H, NAMES, NAMES)
+    np.testing.assert_array_equal(functions["2:y", "1:Y"], H[:, 1, 0])
+    assert functions.select("2:Y").responses == ("2:+Y",)
+
+
+def test_numbers_that_would_lose_something_are_refused():
+    for frequency, values in [(F + 1j, H), (F > 1, H), (F, H.real > 0)]:
+        with pytest.raises(BoltedJointError, match="found what is no array of numbers"):
+            Functions(frequency, values, NAMES, NAMES)

@@ -244,6 +244,52 @@ def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
     assert apart(identified(run, tmp_path)["joint_file"]["joint"]["stiffness"], K) < 0.1
 
 
+SMALL = "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"
+
+
+def measured_beside(rig, folder, places, more=SMALL):
+    """A test whose places are off by `places` (of a, then of b: a shift of each hit, m), beside errors of the budget."""
+    rng = np.random.default_rng(8)
+    stated = [tuple(part.copy() for part in side) for side in rig.sides]
+    for (sensors, hits, _), (of_sensors, of_hits) in zip(rig.sides, places):
+        sensors += of_sensors
+        hits += of_hits
+    rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
+    rig.sides = stated
+    rig.write(folder, FREQUENCIES[::2], noise=0.002, rng=rng, rows=rows, more=more)
+
+
+@pytest.mark.parametrize("shift, is_told", [([0, 0, 0], False), ([0, 0, 5e-4], True)])
+def test_places_of_a_side_that_are_off_alike_are_told(run, tmp_path, shift, is_told):
+    """Positions of b from another point than those of a: χ² is good, and the joint another one."""
+    measured_beside(Rig(K, C), tmp_path, [([0, 0, 0], [0, 0, 0]), (shift, shift)])
+    found = identified(run, tmp_path, expect=3 if is_told else 0)
+    told = [reason for reason in found["reasons_against"] if "all places of b" in reason]
+    assert len(told) == is_told, found["reasons_against"]
+    if is_told:
+        about = [float(value) for value in told[0].split("(")[1].split(")")[0].split(",")]
+        # 0.5 mm, in digits of 0.1 mm
+        assert np.abs(np.array(about) - 1e3 * np.array(shift)).max() < 0.15, told
+
+
+def test_a_hit_beside_its_place_is_estimated_as_unknown(run, tmp_path):
+    """Twenty deviations of the budget off: found there, named, and the joint not drawn back with it."""
+    rig = Rig(K, C)
+    off = np.zeros((12, 3))
+    off[4] = [0, 2e-3, 0]
+    measured_beside(rig, tmp_path, [([0, 0, 0], off), ([0, 0, 0], [0, 0, 0])])
+    told = identified(run, tmp_path)
+    (warning,) = [own for own in told["warnings"] if "estimated as unknown" in own]
+    assert warning.startswith("a.impacts[4] is not where") and "along y by 2.0 ±" in warning, warning
+    joint = json.loads((tmp_path / "j.joint.json").read_text())
+    deviation = joint["uncertainty"]["standard_deviation"]
+    errors = [
+        (np.array(joint["joint"][name]) - truth) / np.array(deviation[name])
+        for name, truth in (("stiffness", K), ("damping", C))
+    ]
+    assert np.sqrt(np.mean(np.square(errors))) < 1.3 and np.abs(errors).max() < 4
+
+
 @pytest.mark.long
 def test_errors_beyond_the_budget_are_told(run, tmp_path):
     """Positions 3 mm off where 0.1 mm is stated, and the like."""

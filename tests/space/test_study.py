@@ -177,4 +177,28 @@ def test_a_key_of_another_model_is_refused(run, tmp_path, key, models):
     Rig(*TRUTH).write(tmp_path, FREQUENCIES, budget='budget = "none"\n')
     replaced(tmp_path, (SOUGHT, f"{SOUGHT}\n{key}"))
     told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
-    assert f'joint.{key.split()[0]}: found it beside model = "full"' in told and models in told, told
+    assert f'joint.{key.split()[0]}`: found it beside model = "full"' in told and models in told, told
+
+
+def test_channels_that_the_assembly_does_not_have_are_told(run, tmp_path):
+    """Renamed in one file: its functions would be left out in silence."""
+    Rig(*TRUTH).write(tmp_path, FREQUENCIES, budget='budget = "none"\n')
+    held = dict(np.load(tmp_path / "c.npz"))
+    first = held["response"][0]
+    node = first.split(":")[0]
+    held["response"] = [name.replace(f"{node}:", "977:") for name in held["response"].tolist()]
+    np.savez(tmp_path / "c.npz", **held)
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json").stderr
+    assert f"no function with the responses {node}:" in told and "its nodes 977 are of no part" in told, told
+
+
+def test_frequencies_of_other_digits_are_the_same(run, tmp_path):
+    """Six digits, as text files have them; one that is another is named."""
+    Rig(*TRUTH).write(tmp_path, FREQUENCIES, budget='budget = "none"\n')
+    held = dict(np.load(tmp_path / "b.npz"))
+    for place, other, is_same in [(7, 5e-6, True), (7, 1e-4, False)]:
+        frequency = held["frequency"].copy()
+        frequency[place] *= 1 + other
+        np.savez(tmp_path / "b.npz", **{**held, "frequency": frequency})
+        told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=0 if is_same else 1).stderr
+        assert is_same or "the first that differs is" in told, told

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use super::summary::{FileSummary, StatedBy, Statements, coherence_noise};
-use super::{Coherence, Dof, Frf, FrfError, FrfSet, without_phase};
+use super::{Coherence, Dof, Frf, FrfError, FrfSet, UnitStatement, without_phase};
 
 /// A function of a file that is no frequency response function and was passed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,9 +63,14 @@ impl FrfReading {
     /// What its user is told where nobody states the units.
     #[must_use]
     pub fn units_warning(&self) -> Option<String> {
+        let units = &self.statements.units;
+        let of_some = match units.iter().any(|own| *own != UnitStatement::Assumed) {
+            true => " for some of its functions",
+            false => "",
+        };
         (!self.units_are_stated()).then(|| {
             format!(
-                "{}: states no units, so SI units are assumed; state units beside frf if they are others",
+                "{}: states no units{of_some}, so SI units are assumed; state units beside frf if they are others",
                 self.path.display()
             )
         })

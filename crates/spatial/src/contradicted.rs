@@ -12,6 +12,9 @@ use crate::problem::{Problem, Unknowns};
 /// Deviations of the budget beyond which an error is one that it does not allow for: chance leaves none of hundreds there.
 const BEYOND: f64 = 4.0;
 
+/// Part of the largest of them from which on another one counts, too: one place that is off draws others with it.
+const BESIDE: f64 = 0.5;
+
 /// Deviation of such an error before anything is measured, in parts of what was found.
 const UNKNOWN: f64 = 3.0;
 
@@ -23,9 +26,13 @@ pub(crate) fn wider(problem: &Problem, unknowns: &Unknowns) -> Option<Vec<f64>> 
         .iter()
         .zip(&deviations)
         .map(|(own, by)| (own / by).abs());
-    let is_beyond = pulls.clone().any(|pull| pull > BEYOND);
-    is_beyond.then(|| {
-        let factors = pulls.map(|pull| if pull > BEYOND { UNKNOWN * pull } else { 1.0 });
+    let largest = pulls.clone().fold(0.0, f64::max);
+    (largest > BEYOND).then(|| {
+        let is_beyond = |pull: f64| pull > BEYOND.max(BESIDE * largest);
+        let factors = pulls.map(|pull| match is_beyond(pull) {
+            true => UNKNOWN * pull,
+            false => 1.0,
+        });
         let before = problem.wider.iter().chain(std::iter::repeat(&1.0));
         factors
             .zip(before)
@@ -38,7 +45,7 @@ pub(crate) fn wider(problem: &Problem, unknowns: &Unknowns) -> Option<Vec<f64>> 
 pub(crate) fn warnings(problem: &Problem, errors: &[SetUpError]) -> Vec<String> {
     let mut named: Vec<(&str, Vec<String>)> = Vec::new();
     let all = errors.iter().zip(&problem.wider);
-    for (error, _) in all.filter(|(_, factor)| **factor > 1.0) {
+    for (error, _) in all.filter(|(error, factor)| **factor > 1.0 && error.pull().abs() > BEYOND) {
         let found = found(error);
         match named.last_mut().filter(|(key, _)| *key == error.key) {
             Some((_, all)) => all.push(found),

@@ -9,6 +9,7 @@ use crate::fits::strongest;
 use crate::hidden::{Beside, searched_beside};
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::level::{of_residuals, relative_rms, sizes};
+use crate::lossy::{Loss, loss};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::numbers::{Numbers, deviations};
 use crate::odd::odd_channels;
@@ -74,6 +75,8 @@ struct Found {
     starts: [usize; 2],
     /// That the joint is not what its model says.
     richer: Option<Richer>,
+    /// That its damping is not viscous.
+    loss: Option<Loss>,
 }
 
 impl SpatialStudy {
@@ -166,8 +169,13 @@ impl SpatialStudy {
         let richer = richer(&estimated, &best.unknowns, |problem, unknowns| {
             Normal::of(problem, unknowns, &level)
         })?;
+        let loss = match best.has_converged {
+            true => loss(&estimated, &best.unknowns, &level)?,
+            false => None,
+        };
         Ok(Found {
             richer,
+            loss,
             joint: Refined {
                 covariance: covariance(&normal.information)
                     .ok_or_else(|| undetermined(best.has_converged, starts))?,
@@ -293,6 +301,7 @@ impl SpatialStudy {
             shown,
             starts,
             richer,
+            loss: None,
         })
     }
 
@@ -317,6 +326,7 @@ impl SpatialStudy {
             joint: alone,
             starts,
             richer,
+            loss,
         } = found;
         let spread = Spread::of(estimated, information, alone.covariance.clone())
             .ok_or(SpatialError::NotDetermined)?;
@@ -383,9 +393,16 @@ impl SpatialStudy {
         let of_budget = contradicted::warnings(problem, &result.errors);
         result.warnings.extend(of_budget);
         result.warnings.extend(richer.iter().map(Richer::warning));
+        result.warnings.extend(loss.iter().map(Loss::warning));
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
-        let of_energy = reasons::of_energy(squares_from_free, count);
+        let of_energy = match loss {
+            Some(_) => reasons::of_lossy_energy(squares_from_free, count),
+            None => reasons::of_energy(squares_from_free, count),
+        };
         result.reasons_against.extend(of_energy);
+        if result.substructures.is_none() && !result.reasons_against.is_empty() {
+            result.reasons_against.push(reasons::of_exact_parts());
+        }
         if best.has_converged && errors > 0 {
             let of_places = shifted::reason(problem, &best.unknowns, &spread.together);
             result.reasons_against.extend(of_places);

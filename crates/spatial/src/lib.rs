@@ -26,6 +26,7 @@ mod identification;
 mod joint_file;
 mod level;
 mod links;
+mod lossy;
 mod mirrored;
 mod misfits;
 mod motionless;

@@ -31,15 +31,7 @@ impl SpatialIdentification {
                 used.sqrt()
             ));
         }
-        let of_noise = of_noise(self.reduced_chi_squared);
-        if self.substructures.is_none() && (of_noise.is_some() || self.relative_rms > RESIDUAL_MAX)
-        {
-            reasons.push(
-                "the functions of a and b are taken as exact: where they were measured, state their noise in noise.a and noise.b"
-                    .to_owned(),
-            );
-        }
-        reasons.extend(of_noise);
+        reasons.extend(of_noise(self.reduced_chi_squared));
         for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
             if let Err(refused) = semidefinite(matrix)
                 && !is_excused(matrix)
@@ -49,6 +41,12 @@ impl SpatialIdentification {
         }
         reasons
     }
+}
+
+/// What else may be behind reasons of the search, of noise or of energy, where the parts are taken as exact.
+pub(crate) fn of_exact_parts() -> String {
+    "the functions of a and b are taken as exact: where they were measured, state the noise of all in noise.relative, noise.a and noise.b"
+        .to_owned()
 }
 
 /// Of a joint none of whose stiffnesses the functions determine.
@@ -95,6 +93,15 @@ pub(crate) fn of_energy(squares_from_free: f64, numbers: usize) -> Option<String
              signs, and whether phases are counted as in e^(+jωt); errors of the set-up that budget does not have do it too",
             squares_from_free.sqrt()
         )
+    })
+}
+
+/// Likewise, where the joint's damping is not viscous.
+pub(crate) fn of_lossy_energy(squares_from_free: f64, numbers: usize) -> Option<String> {
+    of_energy(squares_from_free, numbers).map(|_| {
+        "viscous damping that stands for damping of another kind feeds energy in a direction that hardly moves: identify the joint over a \
+         narrower range of frequencies"
+            .to_owned()
     })
 }
 

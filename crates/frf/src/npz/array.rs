@@ -215,7 +215,19 @@ impl<R: Read> arrays::Array for Array<R> {
                 _ => Element::Number(array_type.complex(&element)),
             })?;
         }
-        Ok(())
+        // an archive checks its sum where it ends
+        match self.reader.read(&mut [0]) {
+            Ok(0) => Ok(()),
+            Ok(_) => {
+                let expected = (count * array_type.size) as u64;
+                Err(cut_short(&self.name, expected + 1, expected))
+            }
+            Err(error) => Err(TableProblem::at(
+                format_args!("array {}", self.name),
+                format_args!("damaged data ({error})"),
+                "an archive as it was written; save or copy it again",
+            )),
+        }
     }
 }
 

@@ -116,10 +116,8 @@ pub(super) fn decide_scale(
         }
         return Ok((numerator / denominator, UnitStatement::Dataset164(units)));
     }
-    let (above, below) = (
-        &header.numerator.units_label,
-        &header.denominator.units_label,
-    );
+    let above = &header.numerator.units_label;
+    let below = &header.denominator.units_label;
     Ok(match (labels.ratio, labels.numerator, labels.denominator) {
         (Some(ratio), ..) => (ratio.to_si, UnitStatement::Label(above.clone())),
         (None, None, None) => {
@@ -133,8 +131,8 @@ pub(super) fn decide_scale(
         }
         (None, None, Some(below_unit)) => {
             numerator_is_silent(header)?;
-            let label = UnitStatement::Label(format!("per {below}"));
-            (below_unit.to_si.recip(), label)
+            // a force that is stated says nothing of the motion, whose unit matters more
+            (below_unit.to_si.recip(), UnitStatement::Assumed)
         }
         (None, Some(above_unit), Some(below_unit)) => {
             let label = UnitStatement::Label(format!("{above} per {below}"));
@@ -210,16 +208,13 @@ mod tests {
             ("g", "", 9.806_65, "g"),
             ("g/kN", "", 9.806_65e-3, "g/kN"),
             ("g", "kN", 9.806_65e-3, "g per kN"),
-            ("", "kN", 1e-3, "per kN"),
         ] {
             let found = scale(unit, load, None).unwrap();
             assert_eq!(found, (to_si, UnitStatement::Label(label.to_owned())));
         }
-        for none in ["", "NONE", "-"] {
-            assert_eq!(
-                scale(none, "", None).unwrap(),
-                (1.0, UnitStatement::Assumed)
-            );
+        for (none, load, to_si) in [("", "", 1.0), ("NONE", "", 1.0), ("-", "kN", 1e-3)] {
+            let found = scale(none, load, None).unwrap();
+            assert_eq!(found, (to_si, UnitStatement::Assumed));
         }
         // a volt per newton is no receptance, and a superscript that was read in another encoding is no unit
         for (unit, load, named) in [

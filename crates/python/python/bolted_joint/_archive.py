@@ -2,6 +2,7 @@
 
 import os
 import zipfile
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,13 +23,19 @@ def unit(quantity: str, response: str, reference: str) -> str:
 
 def deviation(path: str | os.PathLike[str], functions: "Functions") -> NDArray[np.float64] | None:
     """Standard deviations of the magnitudes of receptances that were read from an archive, where it has them."""
-    found = _member(path, "magnitude_deviation")
-    if found is None:
+    arrays = _members(path, ("magnitude_deviation", "frequency", "response", "reference", "quantity", "axes"))
+    if arrays is None:
         return None
-    with np.load(path) as archive:
-        frequency_hz = archive["frequency"]
-        responses, references = archive["response"].tolist(), archive["reference"].tolist()
-        power = list(_OVER_TIME).index(str(archive["quantity"]))
+    found, frequency_hz, responses, references = (*arrays[:2], arrays[2].tolist(), arrays[3].tolist())
+    # an array of this name that `save` has not written is somebody else's
+    of_save = str(arrays[5]) == "frequency,response,reference" and found.shape == (
+        len(frequency_hz),
+        len(responses),
+        len(references),
+    )
+    if not of_save or set(functions.responses) - set(responses) or set(functions.references) - set(references):
+        return None
+    power = list(_OVER_TIME).index(str(arrays[4]))
     lines = np.isin(frequency_hz, functions.frequency_hz)
     rows, columns = [responses.index(name) for name in functions.responses], [
         references.index(name) for name in functions.references
@@ -37,15 +44,14 @@ def deviation(path: str | os.PathLike[str], functions: "Functions") -> NDArray[n
     return part / (2.0 * np.pi * frequency_hz[lines, None, None]) ** power if power else part
 
 
-def _member(path: str | os.PathLike[str], name: str) -> NDArray[Any] | None:
-    """An array of an archive; none where there is no such array, or no archive."""
+def _members(path: str | os.PathLike[str], names: Sequence[str]) -> list[NDArray[Any]] | None:
+    """Arrays of an archive; none where one is not there, or there is no archive."""
     if not zipfile.is_zipfile(path):
         return None
     try:
         with np.load(path) as archive:
-            found: NDArray[Any] | None = archive[name] if name in archive.files else None
-            return found
-    except (OSError, ValueError):
+            return [archive[name] for name in names]
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         return None
 
 

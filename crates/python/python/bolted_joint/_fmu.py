@@ -31,6 +31,9 @@ class Fmu:
     def __fspath__(self) -> str:
         return str(self.path)
 
+    def __str__(self) -> str:
+        return str(self.path)
+
     def __repr__(self) -> str:
         return f"<Fmu {str(self.path)!r}>"
 

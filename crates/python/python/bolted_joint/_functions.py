@@ -46,7 +46,7 @@ class Functions:
         What is measured per load: displacement (m/N), velocity (m/(s·N)) or acceleration (m/(s²·N)); rad and N·m
         likewise.
     coherence : array of the shape of values, optional
-        Ordinary coherence γ².
+        Ordinary coherence γ². NaN on all lines of a function: not known.
     averages : float, optional
         Averages behind every function, 1 or more.
 
@@ -97,6 +97,12 @@ class Functions:
                 "function that was not measured; leave the line out of all arrays"
             )
         coherence = np.full((0, 0, 0), np.nan) if self.coherence is None else self.coherence
+        some = np.isnan(coherence).any(axis=0) & ~np.isnan(coherence).all(axis=0)
+        for row, column in np.argwhere(some)[:1]:
+            raise BoltedJointError(
+                f"coherence: found NaN at some lines of {self.responses[row]}/{self.references[column]}, expected γ² from 0 to 1, "
+                "or NaN on all lines of a function without it"
+            )
         for line, row, column in np.argwhere((coherence < -_ROUNDING) | (coherence > 1.0 + _ROUNDING))[:1]:
             raise BoltedJointError(
                 f"coherence: found {coherence[line, row, column]} at line {line} ({self.frequency_hz[line]:g} Hz) of "
@@ -166,8 +172,8 @@ class Functions:
         found = Functions(
             self.frequency_hz[lines],
             self.values[part],
-            responses,
-            references,
+            [self.responses[row] for row in rows],
+            [self.references[column] for column in columns],
             quantity=self.quantity,
             coherence=None if self.coherence is None else self.coherence[part],
             averages=self.averages,
@@ -243,6 +249,11 @@ class Functions:
                 f"functions: {self.responses[row]}/{self.references[column]} was not measured, expected a function "
                 "for each response and reference; a name that ends in .csv writes a table, which may leave some out"
             )
+        if self.coherence is not None and np.isnan(self.coherence).any():
+            raise BoltedJointError(
+                "functions: found coherence for some of them only, expected it for all; a name that ends in .csv writes a "
+                "table, which may leave some out"
+            )
         arrays: dict[str, Any] = {
             "frequency": self.frequency_hz,
             "frf": self.values,
@@ -273,7 +284,7 @@ class Functions:
             label = unit(self.quantity, self.responses[row], self.references[column])
             names += [f"{pair} real [{label}]", f"{pair} imaginary [{label}]"]
             columns += [values.real, values.imag]
-            if self.coherence is not None:
+            if self.coherence is not None and not np.isnan(self.coherence[:, row, column]).all():
                 names.append(f"{pair} coherence")
                 columns.append(self.coherence[:, row, column])
         comments = [f"# quantity = {self.quantity}"]

@@ -100,6 +100,7 @@ class Identification:
             Which of the study's assemblies, from 0 on. A joint over the preload is taken at its torque.
         at : Functions or array of shape (F,), optional
             In place of `step_hz` the lines, Hz, above 0 and increasing: those of functions, or frequencies themselves.
+            Of functions the responses and references count as well: the result has these, in their order.
             Nothing is interpolated. What a study says of lines to use does not count for them. A structure whose
             functions were measured has to have these lines.
 
@@ -136,7 +137,8 @@ class Identification:
         joints = None if study["method"] == "frf-space" else self.joints
         response = answered(study, joints, [], quiet=NotUsableWarning)
         assert isinstance(response, Functions)
-        return response
+        # the same functions in the same order, so that values may be subtracted
+        return response.select(at.responses, at.references) if isinstance(at, Functions) else response
 
     def plot(self, assembly: int = 0, *, most: int = 6) -> "Figure":
         """Draws what was measured and what the identified joint makes of it.

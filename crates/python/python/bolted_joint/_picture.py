@@ -2,7 +2,12 @@
 
 import io
 
-from matplotlib.figure import Figure
+from ._command import BoltedJointError
+
+try:
+    from matplotlib.figure import Figure
+except ImportError:
+    raise BoltedJointError("a figure needs Matplotlib: pip install bolted-joint[plot]") from None
 
 
 class Picture(Figure):

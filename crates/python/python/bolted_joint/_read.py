@@ -108,18 +108,36 @@ def together(
                 raise BoltedJointError(f"{os.fspath(source)}: found no function, expected at least one")
         curves += found.functions
         coherences += found.coherences
-        stated = found.averages if stated is None else stated
+        stated = _one_number(stated, found.averages, averages, source)
     for path in coherence:
         found = _curves(path, quantity, averages, None)
         if not found.coherences:
             raise BoltedJointError(f"{os.fspath(path)}: found no coherence, expected at least one")
+        known = {_unsigned(*curve[:2]) for curve in curves}
+        if not any(_unsigned(*curve[:2]) in known for curve in found.coherences):
+            of = "/".join(found.coherences[0][:2])
+            raise BoltedJointError(
+                f"{os.fspath(path)}: coherence: found that of {of} and of no function that was read, expected the same DOFs"
+            )
         coherences += found.coherences
-        stated = found.averages if stated is None else stated
+        stated = _one_number(stated, found.averages, averages, path)
     names = ", ".join("functions" if isinstance(one, Functions) else os.fspath(one) for one in sources)
     functions = _of_curves(names, curves, coherences, stated)
     if len(sources) == 1 and not isinstance(sources[0], Functions) and quantity is None and units is None:
         functions.magnitude_deviation = _archive.deviation(sources[0], functions)
     return functions
+
+
+def _one_number(
+    before: float | None, found: float | None, given: float | None, source: Functions | str | os.PathLike[str]
+) -> float | None:
+    """Averages of all files, which agree where no number takes the place of theirs."""
+    if before is not None and found is not None and before != found and given is None:
+        name = "functions" if isinstance(source, Functions) else os.fspath(source)
+        raise BoltedJointError(
+            f"{name}: found {found:g} averages, and {before:g} before it, expected one number; state it by averages"
+        )
+    return found if before is None else before
 
 
 #: Response, reference, frequencies and values, as they come from a file.
@@ -233,8 +251,16 @@ def _of_curves(
         places[_unsigned(response, reference)] = place
     for response, reference, axis, numbers in coherences:
         at = places.get(_unsigned(response, reference))
-        if at is not None and np.array_equal(axis, frequency_hz):
-            of_coherence[at] = numbers
+        if at is None:
+            continue
+        # a function may have fewer lines: a receptance has none at 0 Hz that was measured as another quantity
+        lines = np.searchsorted(axis, frequency_hz)
+        if lines.max(initial=0) >= len(axis) or not np.array_equal(axis[lines], frequency_hz):
+            raise BoltedJointError(
+                f"{files}: found the coherence of {response}/{reference} at other lines than the function, expected it at "
+                "these; leave one of them out"
+            )
+        of_coherence[at] = numbers[lines]
     coherence = of_coherence if coherences else None
     return Functions(frequency_hz, values, responses, references, coherence=coherence, averages=averages)
 

@@ -184,7 +184,8 @@ class _Tables:
             return tables
         if isinstance(value, Functions):
             # an archive has all pairs of its responses and references
-            path = self.new(key, ".npz" if value.measured.all() else ".csv")
+            is_whole = value.measured.all() and (value.coherence is None or not np.isnan(value.coherence).any())
+            path = self.new(key, ".npz" if is_whole else ".csv")
             value.save(path)
             return path.name
         if isinstance(value, Joint):

@@ -256,6 +256,7 @@ pub fn identify_and_draw(
     reasons_against.extend(reliability::because_of(&slips, &estimate.assessment));
     reasons_against.extend(unsound);
     reasons_against.extend(systematic.as_ref().and_then(Systematic::feeding_energy));
+    reasons_against.extend(systematic.as_ref().and_then(Systematic::out_of_scale));
     if has_budget && systematic.is_none() && slips.is_empty() {
         reasons_against.extend(reliability::without_budget(&estimate.assessment));
     }

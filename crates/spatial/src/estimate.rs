@@ -8,6 +8,7 @@ use crate::fit::{Effort, Fit, Squares, covariance};
 use crate::fits::strongest;
 use crate::hidden::{Beside, searched_beside};
 use crate::identification::{Group, SpatialIdentification, Substructures};
+use crate::lack;
 use crate::level::{of_residuals, relative_rms, sizes};
 use crate::lossy::{Loss, loss};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
@@ -389,6 +390,10 @@ impl SpatialStudy {
         // beside a joint that is another one, none goes with the others
         if result.relative_rms < LARGEST_RESIDUAL {
             result.warnings = odd_channels(&compared, &alone.unknowns)?;
+        }
+        if best.has_converged && result.substructures.is_none() {
+            let of_rest = lack::warning(&compared, &alone.unknowns, &sizes(&compared))?;
+            result.warnings.extend(of_rest);
         }
         let of_budget = contradicted::warnings(problem, &result.errors);
         result.warnings.extend(of_budget);

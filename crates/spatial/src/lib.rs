@@ -24,6 +24,7 @@ mod functions;
 mod hidden;
 mod identification;
 mod joint_file;
+mod lack;
 mod level;
 mod links;
 mod lossy;

@@ -31,6 +31,8 @@ pub(super) use together::{Apart, are_together};
 const BANDS: [usize; 2] = [2, 8];
 /// Standard deviations by which a loss factor is below zero that no chance explains.
 const FEEDS: f64 = 5.0;
+/// A gain of all sets that is farther from 1 is another error.
+const OUT_OF_SCALE: f64 = 0.5;
 /// A p-value below this is no chance.
 const CHANCE: f64 = 0.01;
 /// Causes whose drops of χ² differ by less than this part cannot be told apart.
@@ -316,6 +318,19 @@ impl Systematic {
             format!(
                 "the joint would feed energy: its loss factor is {value:.3} ± {deviation:.2} {unit}; the damping of a structure is \
                  stated too high, or phases are wrong"
+            )
+        })
+    }
+
+    /// That all sets would have a gain in common that no calibration leaves: another cause took the search there.
+    pub(super) fn out_of_scale(&self) -> Option<String> {
+        let is_common = |(_, own): &&(String, CauseEstimate)| own.prior.cause == Cause::CommonGain;
+        let (_, own) = self.causes.iter().find(is_common)?;
+        (own.value.abs() > OUT_OF_SCALE).then(|| {
+            let ([value, _], unit) = shown(own.prior.cause, [own.value, own.standard_deviation]);
+            format!(
+                "all sets would have a gain of {value:+.0} {unit} in common, which no calibration leaves: another cause is behind it; \
+                 correct what the data contradict first"
             )
         })
     }

@@ -43,6 +43,18 @@ def test_rows_of_characters_and_one_reference(tmp_path):
     np.testing.assert_allclose(found["12:-Y", "2:+Y"], -VALUES[1, 0] / omega**2, rtol=1e-14)
 
 
+def test_arrays_of_h5py_keep_their_axes(tmp_path):
+    """A file that MATLAB has not written, with plain texts."""
+    h5py = pytest.importorskip("h5py", reason="h5py is not installed")
+    square = np.moveaxis(VALUES, 2, 0)[:, :2]
+    with h5py.File(tmp_path / "c.h5", "w") as file:
+        file["frequency"], file["frf"] = FREQUENCY, square
+        file["response"], file["reference"] = RESPONSES[:2], REFERENCES
+        file["axes"], file["quantity"] = "frequency,response,reference", "receptance"
+    found = bolted_joint.read(tmp_path / "c.h5")
+    np.testing.assert_array_equal(found.values, square)
+
+
 def test_what_is_wrong_is_told_with_the_files_own_name(tmp_path):
     for changed, said in [
         ({"frf": None}, "expected frf"), ({"quantity": None}, "neither a quantity nor a unit"), ({"frf": VALUES[:2]}, "shape"),

@@ -219,9 +219,10 @@ fn lines(set: &FrfSet, shown: &mut Shown) {
             *range = [range[0].min(norm), range[1].max(norm)];
         }
     }
-    let ranges = by_unit
-        .iter()
-        .map(|(unit, [low, high])| format!("{} to {} {unit}", short(*low, 3), short(*high, 3)));
+    let ranges = by_unit.iter().map(|(unit, [low, high])| match *high > 0.0 {
+        true => format!("{} to {} {unit}", short(*low, 3), short(*high, 3)),
+        false => "0 at all lines".to_owned(),
+    });
     shown.facts_of("magnitude", ranges);
 }
 

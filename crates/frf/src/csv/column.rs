@@ -65,11 +65,11 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// Where phases in radian stand.
-    pub(super) fn radians_at(self) -> Option<usize> {
+    /// Where phases stand, and whether they are in radian.
+    pub(super) fn phases_at(self) -> Option<(usize, bool)> {
         match self {
             // the other unit, a degree, is less than a radian
-            Self::Polar { phase, radians, .. } if radians >= 1.0 => Some(phase),
+            Self::Polar { phase, radians, .. } => Some((phase, radians >= 1.0)),
             _ => None,
         }
     }

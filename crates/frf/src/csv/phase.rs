@@ -1,4 +1,5 @@
-//! Phases in radian that are degrees: a spreadsheet's column is soon given the wrong unit, and no phase is impossible by itself.
+//! Phases in radian that are degrees, and the other way round: a spreadsheet's column is soon given the wrong unit, and no phase is
+//! impossible by itself.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +10,14 @@ const TURNS: f64 = 2.0;
 /// Part by which rounding may lengthen a step of half a turn.
 const ROUNDING: f64 = 1e-3;
 
-/// What the phases of a column have been so far, rad.
+/// Rows, and the largest magnitude over the smallest one, from which on a function has passed a resonance: its phase has turned by half
+/// a turn there.
+const FEWEST: usize = 10;
+const RESONANT: f64 = 30.0;
+/// Spread of phases in degrees that are none, if they are radians.
+const SPREAD: f64 = 2.0;
+
+/// What the phases of a column have been so far.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Phases {
     rows: usize,
@@ -21,13 +29,26 @@ pub(super) struct Phases {
     before: Option<f64>,
     /// Whether one row is more than half a turn from the one before.
     has_leaps: bool,
+    /// The smallest and the largest phase, and magnitude.
+    phases: Option<[f64; 2]>,
+    magnitudes: Option<[f64; 2]>,
+}
+
+/// A range that has this number in it, too.
+fn widened(range: Option<[f64; 2]>, own: f64) -> Option<[f64; 2]> {
+    let [low, high] = range.unwrap_or([own; 2]);
+    Some([low.min(own), high.max(own)])
 }
 
 impl Phases {
-    /// Takes in the phase of the next row.
-    pub(super) fn push(&mut self, phase: f64, line: usize) {
+    /// Takes in the phase of the next row, and what it is the phase of.
+    pub(super) fn push(&mut self, phase: f64, magnitude: f64, line: usize) {
         if !phase.is_finite() {
             return;
+        }
+        self.phases = widened(self.phases, phase);
+        if magnitude.is_finite() && magnitude > 0.0 {
+            self.magnitudes = widened(self.magnitudes, magnitude);
         }
         self.rows += 1;
         self.beyond += usize::from(phase.abs() > TAU);
@@ -56,6 +77,25 @@ impl Phases {
             format_args!("column {column}"),
             format_args!("phases beyond ±2π in {beyond} of {rows} rows, up to {largest}"),
             "rad; they are probably degrees: state [deg] in place of [rad], or bring phases that run on over many turns within ±2π",
+        );
+        Some((line, problem))
+    }
+}
+
+impl Phases {
+    /// The line, and what is wrong, where phases in degrees are radians: within ±π, spread over degrees, of a function that passes
+    /// resonances, where it turns by half a turn. `column` counts from 1.
+    pub(super) fn radians(&self, column: usize) -> Option<(usize, TableProblem)> {
+        let ([low, high], [least, most]) = (self.phases?, self.magnitudes?);
+        let (_, line) = self.largest?;
+        let is_within = low.abs().max(high.abs()) <= PI * (1.0 + ROUNDING);
+        if self.rows < FEWEST || !is_within || high - low < SPREAD || most < RESONANT * least {
+            return None;
+        }
+        let problem = TableProblem::at(
+            format_args!("column {column}"),
+            format_args!("phases from {low} to {high}° of a function that passes resonances"),
+            "degrees, which turn by 180 there; they are probably radians: state [rad] in place of [deg]",
         );
         Some((line, problem))
     }
@@ -96,8 +136,26 @@ mod tests {
         let mut all = Phases::default();
         (2..)
             .zip(phases)
-            .for_each(|(line, phase)| all.push(phase, line));
+            .for_each(|(line, phase)| all.push(phase, 1.0, line));
         all.degrees(3).is_some()
+    }
+
+    #[test]
+    fn radians_are_told_from_degrees_of_a_function_that_passes_resonances() {
+        // the amplitudes are those of one mode; a structure far from any, measured with a small delay, has such phases
+        let magnitude = |n: usize| 1.0 / ((1.0 - (n as f64 / 20.0).powi(2)).abs() + 0.01);
+        let are_radians = |phases: &[f64], is_flat: bool| {
+            let mut all = Phases::default();
+            for (n, phase) in phases.iter().enumerate() {
+                all.push(*phase, if is_flat { 1.0 } else { magnitude(n) }, n);
+            }
+            all.radians(3).is_some()
+        };
+        let wrapped = phases(25.0, 0.0);
+        let degrees: Vec<f64> = wrapped.iter().map(|own| own.to_degrees()).collect();
+        assert!(are_radians(&wrapped, false));
+        assert!(!are_radians(&wrapped, true));
+        assert!(!are_radians(&degrees, false));
     }
 
     #[test]
@@ -121,7 +179,7 @@ mod tests {
     fn the_message_names_the_column_and_the_line_of_the_largest() {
         let mut all = Phases::default();
         for (line, phase) in [(2, -170.0), (3, f64::NAN), (4, 179.5), (5, 10.0)] {
-            all.push(phase, line);
+            all.push(phase, 1.0, line);
         }
         let (line, problem) = all.degrees(3).unwrap();
         assert_eq!(line, 4);

@@ -168,8 +168,14 @@ pub fn read_csv_from(
         coherence,
     } in wanted
     {
-        let place = columns.form.radians_at();
-        if let Some((line, problem)) = place.and_then(|place| phases.degrees(place + 1)) {
+        let wrong = columns
+            .form
+            .phases_at()
+            .and_then(|(place, in_radian)| match in_radian {
+                true => phases.degrees(place + 1),
+                false => phases.radians(place + 1),
+            });
+        if let Some((line, problem)) = wrong {
             return Err(FrfError::Csv {
                 path: path.to_owned(),
                 line,
@@ -214,7 +220,6 @@ struct Wanted<'header> {
     /// Nothing for a coherence alone.
     stated: Option<Stated>,
     lines: Gathered,
-    /// Phases in radian.
     phases: Phases,
     coherence: Gathered,
 }
@@ -363,9 +368,9 @@ impl<R: BufRead> Rows<'_, R> {
                         "a finite number; remove the line from the measurement",
                     )));
                 }
-                if let Some(place) = function.columns.form.radians_at() {
+                if let Some((place, _)) = function.columns.form.phases_at() {
                     let phase = row.real(place).map_err(|problem| self.problem(problem))?;
-                    function.phases.push(phase, self.number);
+                    function.phases.push(phase, value.norm(), self.number);
                 }
                 function.lines.push(&options.selection, hz, value);
                 if let Some(column) = function.columns.coherence {

@@ -22,6 +22,12 @@ pub(super) struct Archive<R> {
 impl<R: Read + Seek> Archive<R> {
     pub(super) fn open(reader: R) -> Result<Self, TableProblem> {
         let zip = ZipArchive::new(reader).map_err(broken)?;
+        if zip.index_for_name("[Content_Types].xml").is_some() {
+            return Err(TableProblem::whole(
+                "a workbook of Excel or a document of Office",
+                "a table: save the sheet as CSV",
+            ));
+        }
         let names = zip
             .file_names()
             .filter_map(|name| Some(name.ok()?.strip_suffix(".npy")?.to_owned()))

@@ -60,12 +60,26 @@ def _array(file: Any, item: Any) -> Any:
         return None if None in texts else np.array(texts)
     if kind == "char":
         return np.array(_rows(value))
+    if not kind:
+        return _of_others(value)
     if getattr(value, "dtype", None) is None or value.dtype.kind in "OSV" and value.dtype.names != ("real", "imag"):
         return None
     if value.dtype.names == ("real", "imag"):
         value = value["real"] + 1j * value["imag"]
     # HDF5 has the axes of a matrix in the opposite order
     return np.squeeze(np.transpose(value))
+
+
+def _of_others(value: Any) -> Any:
+    """An array that no MATLAB has written, such as h5py's: axes in their own order, texts as such; else as above."""
+    found = np.asarray(value)
+    if found.dtype.names == ("real", "imag"):
+        return found["real"] + 1j * found["imag"]
+    if found.dtype.kind in "OSU":
+        texts = [one.decode() if isinstance(one, bytes) else one for one in found.ravel().tolist()]
+        is_text = all(isinstance(one, str) for one in texts)
+        return np.array(texts).reshape(found.shape) if is_text else None
+    return None if found.dtype.kind == "V" else found
 
 
 def _rows(value: Any) -> list[str]:

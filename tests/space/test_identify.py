@@ -292,6 +292,46 @@ def test_a_hit_beside_its_place_is_estimated_as_unknown(run, tmp_path):
     assert np.sqrt(np.mean(np.square(errors))) < 1.3 and np.abs(errors).max() < 4
 
 
+@pytest.mark.parametrize("loss, is_told", [(0.02, True), (0.0, False)])
+def test_damping_that_does_not_grow_with_the_frequency_is_told(program, tmp_path, loss, is_told):
+    """A loss factor of the joint in place of dampers: told with its value, and not as a matter of signs."""
+    rig = Rig(K, 0 * C if loss else C)
+    rig.K = K * (1 + 1j * loss)
+    rig.write(tmp_path, FREQUENCIES[::3], noise=0.005, rng=np.random.default_rng(9), more=EXACT)
+    command = [program, "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    told = [line for line in done.stderr.splitlines() if "loss factor" in line]
+    assert len(told) == is_told, done.stderr
+    if is_told:
+        assert abs(float(told[0].split("loss factor of about ")[1].split()[0]) / loss - 1) < 0.1, told
+        assert "check signs" not in done.stderr
+
+
+@pytest.mark.parametrize("scatter_m, is_told", [(3e-4, True), (0.0, False)])
+def test_hits_beside_those_of_the_parts_are_told(run, tmp_path, scatter_m, is_told):
+    """Hit anew in the assembly: what is left moves the interface as a rigid body, which noise does not."""
+    rig, rng = Rig(K, C), np.random.default_rng(10)
+    rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
+    more = "budget = { position = 1e-3, rotation = 1e-2, gain = 1e-2 }\n"
+    rig.write(tmp_path, FREQUENCIES[::2], rows=rows, more=more)
+    if scatter_m:
+        stated = [tuple(part.copy() for part in side) for side in rig.sides]
+        for _, hits, _ in rig.sides:
+            hits += rng.normal(size=hits.shape) * scatter_m
+        again = [(u, rig.rows(side)[1]) for side, (u, _) in enumerate(rows)]
+        rig.sides = stated
+        (tmp_path / "again").mkdir()
+        rig.write(tmp_path / "again", FREQUENCIES[::2], rows=again)
+        (tmp_path / "again" / "c.npz").replace(tmp_path / "c.npz")
+    held = dict(np.load(tmp_path / "c.npz"))
+    size = np.sqrt(np.mean(np.abs(held["frf"]) ** 2, axis=2, keepdims=True))
+    noise = rng.normal(size=held["frf"].shape) + 1j * rng.normal(size=held["frf"].shape)
+    held["frf"] = held["frf"] + 0.003 * size * noise
+    np.savez(tmp_path / "c.npz", **held)
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json").stderr
+    assert ("what is left is no noise" in told) == is_told, told
+
+
 @pytest.mark.long
 def test_errors_beyond_the_budget_are_told(run, tmp_path):
     """Positions 3 mm off where 0.1 mm is stated, and the like."""

@@ -116,7 +116,10 @@ impl ChainStudy {
             });
         }
         let normal = Normal::of(&problem, &best.unknowns, &level)?;
-        let all = covariance(&normal.information).ok_or(SpatialError::NotDetermined)?;
+        let all = covariance(&normal.information).ok_or(match explains && best.has_converged {
+            true => SpatialError::NotDetermined,
+            false => SpatialError::NothingFound { tried: starts[0] },
+        })?;
         let (joints, of_energy): (Vec<FoundJoint>, Vec<Option<String>>) = problem
             .links
             .sought()

@@ -5,21 +5,15 @@ use nalgebra::DMatrix;
 use crate::contradicted;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit, Squares, covariance};
-use crate::fits::strongest;
 use crate::hidden::{Beside, searched_beside};
-use crate::identification::{Group, SpatialIdentification, Substructures};
-use crate::lack;
-use crate::level::{of_residuals, relative_rms, sizes};
+use crate::identification::SpatialIdentification;
+use crate::level::{of_residuals, sizes};
 use crate::lossy::{Loss, loss};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
-use crate::numbers::{Numbers, deviations};
-use crate::odd::odd_channels;
+use crate::outcome::{LARGEST_RESIDUAL, undetermined};
 use crate::problem::{Level, Problem, Unknowns};
-use crate::reasons;
 use crate::richer::{Richer, richer};
 use crate::search::{BY_CHANCE, SEARCHED, searched};
-use crate::shifted;
-use crate::spread::Spread;
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
 
@@ -36,9 +30,6 @@ const MANY: usize = 300;
 /// Levels that a round changes by less than this part are as they are.
 const SETTLED: f64 = 1e-5;
 
-/// Residual in parts of the functions up to which single channels are told from the others.
-const LARGEST_RESIDUAL: f64 = 0.15;
-
 /// Lines that are looked at for each one of the estimate, where the substructures have noise.
 const LOOKED_AT: usize = 10;
 
@@ -46,38 +37,38 @@ const LOOKED_AT: usize = 10;
 const FEW: usize = 200;
 
 /// The joint that fits best, beside what else is unknown.
-struct Refined {
+pub(crate) struct Refined {
     /// Of the joint alone.
-    unknowns: Unknowns,
+    pub(crate) unknowns: Unknowns,
     /// Covariance of these.
-    covariance: DMatrix<f64>,
+    pub(crate) covariance: DMatrix<f64>,
     /// χ², and of how many numbers.
-    squares: f64,
-    numbers: usize,
+    pub(crate) squares: f64,
+    pub(crate) numbers: usize,
     /// Lines that took part.
-    kept: Vec<usize>,
+    pub(crate) kept: Vec<usize>,
     /// R.m.s. over these lines of what the substructures' noise moves, in parts of the functions.
-    moved: f64,
-    has_converged: bool,
+    pub(crate) moved: f64,
+    pub(crate) has_converged: bool,
 }
 
 /// The search's end.
-struct Found {
+pub(crate) struct Found {
     /// Joint and errors of the set-up, at the lines of `estimated`.
-    best: Fit,
-    estimated: Problem,
+    pub(crate) best: Fit,
+    pub(crate) estimated: Problem,
     /// What these say of both.
-    information: DMatrix<f64>,
+    pub(crate) information: DMatrix<f64>,
     /// The substructures as they were found, and an exact set-up, at all lines.
-    shown: Problem,
+    pub(crate) shown: Problem,
     /// The joint alone, with the errors as they were found, at all lines.
-    joint: Refined,
+    pub(crate) joint: Refined,
     /// Starts that were tried, and that agree.
-    starts: [usize; 2],
+    pub(crate) starts: [usize; 2],
     /// That the joint is not what its model says.
-    richer: Option<Richer>,
+    pub(crate) richer: Option<Richer>,
     /// That its damping is not viscous.
-    loss: Option<Loss>,
+    pub(crate) loss: Option<Loss>,
 }
 
 impl SpatialStudy {
@@ -305,124 +296,6 @@ impl SpatialStudy {
             loss: None,
         })
     }
-
-    fn result(&self, found: &Found) -> Result<SpatialIdentification, SpatialError> {
-        self.numbers(found).map_err(|error| match error {
-            SpatialError::NotDetermined => undetermined(found.joint.has_converged, found.starts),
-            other => other,
-        })
-    }
-
-    fn numbers(&self, found: &Found) -> Result<SpatialIdentification, SpatialError> {
-        let problem = &self.problem;
-        let sought = problem.only()?;
-        let model = sought.model;
-        let count = problem.joint_count();
-        let errors = problem.error_count();
-        let Found {
-            best,
-            estimated,
-            information,
-            shown,
-            joint: alone,
-            starts,
-            richer,
-            loss,
-        } = found;
-        let spread = Spread::of(estimated, information, alone.covariance.clone())
-            .ok_or(SpatialError::NotDetermined)?;
-        let Numbers {
-            unknowns,
-            matrices: [stiffness, damping],
-            free,
-            covariances,
-            correlation,
-            squares_from_free,
-        } = Numbers::of(
-            &sought,
-            alone.unknowns.0.clone(),
-            &spread.all,
-            &spread.by_noise,
-            alone.has_converged,
-        )?;
-        let group = |(name, added): &(String, DMatrix<f64>)| {
-            let share = |n: usize| added[(n, n)] / spread.all[(n, n)];
-            Group {
-                name: name.clone(),
-                deviations: deviations(model, added),
-                largest_share: (0..count).map(share).fold(0.0, f64::max),
-            }
-        };
-        let lines = alone.kept.len();
-        let compared = shown.with_lines(&alone.kept);
-        let freedom = (alone.numbers - count) as f64;
-        let reduced_chi_squared =
-            matches!(self.level, Level::Relative(_)).then_some(alone.squares / freedom);
-        let left_out = problem.frequency_hz.len() - lines;
-        let mut result = SpatialIdentification {
-            unknowns,
-            stiffness,
-            damping,
-            free,
-            deviations: deviations(model, &spread.all),
-            deviations_by_noise: deviations(model, &spread.by_noise),
-            covariances,
-            correlation,
-            relative_rms: relative_rms(&compared, &alone.unknowns)?,
-            functions: problem.observed.len(),
-            lines,
-            substructures: (self.noise != [0.0; 2]).then_some(Substructures {
-                lines_left_out: left_out,
-                moves: alone.moved,
-            }),
-            frequency_hz: problem.frequency_hz.clone(),
-            fits: strongest(shown, &alone.unknowns, &alone.kept)?,
-            reduced_chi_squared,
-            budget_used: (errors > 0).then(|| {
-                squares_of_errors(problem, &best.unknowns) / problem.open_error_count() as f64
-            }),
-            starts: *starts,
-            groups: spread.groups.iter().map(group).collect(),
-            errors: problem.found_errors(&best.unknowns, &spread.together),
-            warnings: Vec::new(),
-            reasons_against: Vec::new(),
-        };
-        // beside a joint that is another one, none goes with the others
-        if result.relative_rms < LARGEST_RESIDUAL {
-            result.warnings = odd_channels(&compared, &alone.unknowns)?;
-        }
-        if best.has_converged && result.substructures.is_none() {
-            let of_rest = lack::warning(&compared, &alone.unknowns, &sizes(&compared))?;
-            result.warnings.extend(of_rest);
-        }
-        let of_budget = contradicted::warnings(problem, &result.errors);
-        result.warnings.extend(of_budget);
-        result.warnings.extend(richer.iter().map(Richer::warning));
-        result.warnings.extend(loss.iter().map(Loss::warning));
-        result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
-        let of_energy = match loss {
-            Some(_) => reasons::of_lossy_energy(squares_from_free, count),
-            None => reasons::of_energy(squares_from_free, count),
-        };
-        result.reasons_against.extend(of_energy);
-        if result.substructures.is_none() && !result.reasons_against.is_empty() {
-            result.reasons_against.push(reasons::of_exact_parts());
-        }
-        if best.has_converged && errors > 0 {
-            let of_places = shifted::reason(problem, &best.unknowns, &spread.together);
-            result.reasons_against.extend(of_places);
-        }
-        if best.has_converged {
-            let of_nothing = reasons::of_nothing(&result.unknowns);
-            result.reasons_against.extend(of_nothing);
-        }
-        let found = [&result.stiffness, &result.damping];
-        let of_model = richer
-            .as_ref()
-            .and_then(|richer| richer.reason(found, &result.deviations));
-        result.reasons_against.extend(of_model);
-        Ok(result)
-    }
 }
 
 /// Whether what was found at some lines leaves no more at all of them, but for chance.
@@ -454,12 +327,4 @@ fn with_joint(all: &Unknowns, joint: &Unknowns) -> Unknowns {
     let mut own = all.clone();
     own.0.rows_mut(0, joint.0.len()).copy_from(&joint.0);
     own
-}
-
-/// Why there is no covariance: where a search has come to nothing that lies at what was found, and not at the functions.
-fn undetermined(has_converged: bool, [tried, _]: [usize; 2]) -> SpatialError {
-    match has_converged {
-        true => SpatialError::NotDetermined,
-        false => SpatialError::NothingFound { tried },
-    }
 }

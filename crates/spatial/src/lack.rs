@@ -132,7 +132,7 @@ fn splits(problem: &Problem, role: Role, rms: &DMatrix<f64>) -> Vec<Split> {
                 0 => rms.column(other).rows(first, count).into_owned(),
                 _ => rms.row(other).columns(first, count).transpose(),
             };
-            if sizes.iter().any(|size| !(*size > 0.0)) {
+            if sizes.iter().any(|size| size.is_nan() || *size <= 0.0) {
                 continue;
             }
             let scaled = DMatrix::from_fn(count, motions, |i, j| rigid[(i, j)] / sizes[i]);

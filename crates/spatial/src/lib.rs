@@ -34,6 +34,7 @@ mod motionless;
 mod normal;
 mod numbers;
 mod odd;
+mod outcome;
 mod parallel;
 mod passive;
 mod patterns;

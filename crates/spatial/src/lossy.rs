@@ -104,7 +104,7 @@ pub(crate) fn loss(
     let information = sums.information[(count, count)]
         - beside.dot(&sums.information.view((0, count), (count, 1)).column(0));
     let descent = sums.descent[count] - beside.dot(&sums.descent.rows(0, count));
-    if !(information > 0.0) {
+    if information.is_nan() || information <= 0.0 {
         return Ok(None);
     }
     let loss = Loss {

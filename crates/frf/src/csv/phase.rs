@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-3;
 /// Rows, and the largest magnitude over the smallest one, from which on a function has passed a resonance: its phase has turned by half
 /// a turn there.
 const FEWEST: usize = 10;
-const RESONANT: f64 = 30.0;
+const RESONANT: f64 = 15.0;
 /// Spread of phases in degrees that are none, if they are radians.
 const SPREAD: f64 = 2.0;
 

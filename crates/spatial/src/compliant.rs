@@ -31,7 +31,6 @@ impl Loads {
             }
         }
         free.tolerances = None;
-        free.wider.clear();
         let patterns = Patterns::of(&free, None);
         let grid = Grid::new(self.weights.clone());
         let count = free.joint_count();

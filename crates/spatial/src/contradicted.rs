@@ -10,7 +10,7 @@ use crate::identification::SetUpError;
 use crate::problem::{Problem, Unknowns};
 
 /// Deviations of the budget beyond which an error is one that it does not allow for: chance leaves none of hundreds there.
-const BEYOND: f64 = 4.0;
+pub(crate) const BEYOND: f64 = 4.0;
 
 /// Part of the largest of them from which on another one counts, too: one place that is off draws others with it.
 const BESIDE: f64 = 0.5;

@@ -1,5 +1,7 @@
 //! The estimate: search, level of the noise, the joint alone with all lines, and what all errors together do to it.
 
+use std::borrow::Cow;
+
 use nalgebra::DMatrix;
 
 use crate::contradicted;
@@ -89,14 +91,14 @@ impl SpatialStudy {
         let rms = sizes(problem);
         let mut found = self.found(&rms, None)?;
         let mut result = self.result(&found)?;
-        let mut own = self.clone();
+        let mut own = Cow::Borrowed(self);
         for _ in 0..ROUNDS {
             // what a budget that does not hold draws back draws the joint with it
             let is_near = found.joint.has_converged && result.relative_rms < LARGEST_RESIDUAL;
             let wider = contradicted::wider(&own.problem, &found.best.unknowns)
                 .filter(|_| is_near && result.reasons_against.is_empty());
             let Some(wider) = wider else { break };
-            own.problem.wider = wider;
+            own.to_mut().problem.wider = wider;
             found = own.found(&rms, Some(found))?;
             result = own.result(&found)?;
         }

@@ -39,7 +39,7 @@ pub(crate) struct Problem {
     pub(crate) links: Links,
     /// Of the set-ups; `None` where they are exact.
     pub(crate) tolerances: Option<Tolerances>,
-    /// By how much the deviation of each error of the set-up is wider than the tolerances say; empty where none is.
+    /// By how much the deviation of each error of the set-up is wider than the tolerances say; empty where none is, of no account without them.
     pub(crate) wider: Vec<f64>,
     /// Stiffnesses that balance the structures in each motion of the joints that are sought, N/m and N·m/rad: 1/|H_ii|. Where they
     /// are known, steps follow the functions.
@@ -154,7 +154,6 @@ impl Problem {
             return Ok(own);
         }
         own.tolerances = None;
-        own.wider.clear();
         for (side, errors) in own.sides.iter_mut().zip(errors) {
             *side = side.displaced(errors)?;
         }

@@ -7,6 +7,7 @@ use bolted_joint_space::Dof;
 use bolted_joint_virtual_point::Change;
 use nalgebra::{DMatrix, DVector};
 
+use crate::contradicted;
 use crate::problem::{Problem, Unknowns};
 use crate::side::Side;
 
@@ -56,13 +57,13 @@ pub(crate) fn reason(
     }
     Some(match of_shift >= of_turn {
         true => format!(
-            "all places of b seem to lie ({}) mm from where the study has them, against those of a, {of_shift:.0} times what the budget lets their mean be: \
-             state the positions of both from one point of the joint, half thicknesses of plates and adapters with them",
+            "all places of b seem to lie ({}) mm from where the study has them, against those of a, {of_shift:.0} times what the budget \
+             lets their mean be: state the positions of both from one point of the joint, half thicknesses of plates and adapters with them",
             told(&along, 1e3)
         ),
         false => format!(
-            "all places of b seem to be turned by ({})° from how the study has them, against those of a, {of_turn:.0} times what the budget lets their mean be: \
-             state positions and directions of both in the same axes",
+            "all places of b seem to be turned by ({})° from how the study has them, against those of a, {of_turn:.0} times what the \
+             budget lets their mean be: state positions and directions of both in the same axes",
             told(&about, 1f64.to_degrees())
         ),
     })
@@ -76,23 +77,60 @@ fn mean(
     dof: Dof,
 ) -> Option<Mean> {
     let sides = problem.sides.each_ref().map(Side::parameters);
-    let kinds = sides.iter().map(|all| {
-        let own = all.iter().map(|(_, one)| one.change == Change::Pose(dof));
-        own.collect::<Vec<_>>()
-    });
-    let count = |kinds: &[bool]| kinds.iter().filter(|is_one| **is_one).count().max(1) as f64;
-    let weights = kinds.zip([-1.0, 1.0]).flat_map(|(kinds, sign)| {
-        let own = sign / count(&kinds);
-        kinds
-            .into_iter()
-            .map(move |is_one| if is_one { own } else { 0.0 })
-    });
-    let weights = DVector::from_vec(weights.collect());
+    let errors = problem.errors(unknowns).concat();
+    let parameters = || sides.iter().flatten();
+    let is_of_kind: Vec<bool> = parameters()
+        .map(|(_, one)| one.change == Change::Pose(dof))
+        .collect();
+    let kept = |left_out: Option<usize>| -> Vec<bool> {
+        let places = is_of_kind.iter().enumerate();
+        places
+            .map(|(n, is_one)| *is_one && Some(n) != left_out)
+            .collect()
+    };
+    let first_of_b = sides[0].len();
+    let of = |kept: &[bool]| {
+        let [a, b] = [&kept[..first_of_b], &kept[first_of_b..]]
+            .map(|own| own.iter().filter(|is_one| **is_one).count().max(1) as f64);
+        let weights = DVector::from_iterator(
+            kept.len(),
+            kept.iter().enumerate().map(|(n, is_one)| match *is_one {
+                true if n < first_of_b => -1.0 / a,
+                true => 1.0 / b,
+                false => 0.0,
+            }),
+        );
+        of_weights(problem, unknowns, covariance, &weights)
+    };
+    // one place that is off by itself makes a mean, too, and none without it
+    let farthest = (0..errors.len())
+        .filter(|&n| is_of_kind[n])
+        .max_by(|&one, &other| errors[one].abs().total_cmp(&errors[other].abs()))?;
+    let all = of(&kept(None))?;
+    let deviation = problem.error_deviations()[farthest];
+    let is_off_by_itself = errors[farthest].abs() > contradicted::BEYOND * deviation;
+    let others = match is_off_by_itself {
+        true => of(&kept(Some(farthest)))?.pull,
+        false => all.pull,
+    };
+    Some(Mean {
+        pull: all.pull.min(others),
+        ..all
+    })
+}
+
+/// A mean of the errors with these weights; `None` where the data say nothing of it.
+fn of_weights(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    covariance: &DMatrix<f64>,
+    weights: &DVector<f64>,
+) -> Option<Mean> {
     let (joint, errors) = (problem.joint_count(), weights.len());
-    let found = unknowns.0.rows(joint, errors).dot(&weights);
+    let found = unknowns.0.rows(joint, errors).dot(weights);
     let of_budget = weights.iter().zip(problem.error_deviations());
     let before: f64 = of_budget.map(|(weight, by)| (weight * by).powi(2)).sum();
-    let after = covariance.view((joint, joint), (errors, errors)) * &weights;
+    let after = covariance.view((joint, joint), (errors, errors)) * weights;
     // an estimate that the budget draws back varies by what the data take off its variance
     let told = before - weights.dot(&after);
     (told > TOLD * before).then(|| Mean {

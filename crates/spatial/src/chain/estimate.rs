@@ -161,7 +161,6 @@ impl ChainStudy {
         }
         let mut problem = self.problem.clone();
         problem.tolerances = None;
-        problem.wider.clear();
         let (observed, zero_functions) = self.observed()?;
         problem.observed = observed;
         Ok((problem, zero_functions))

@@ -3,6 +3,7 @@
 import pathlib
 import re
 import warnings
+import zipfile
 
 import numpy as np
 import pytest
@@ -399,6 +400,13 @@ def test_a_damaged_archive_is_refused(tmp_path):
     data[place] ^= 4
     (tmp_path / "a.npz").write_bytes(data)
     with pytest.raises(BoltedJointError, match="array frf: found damaged data"):
+        bolted_joint.read(tmp_path / "a.npz")
+
+
+def test_a_workbook_is_told_from_an_archive(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        archive.writestr("[Content_Types].xml", "<x/>")
+    with pytest.raises(BoltedJointError, match="a workbook of Excel.*save the sheet as CSV"):
         bolted_joint.read(tmp_path / "a.npz")
 
 

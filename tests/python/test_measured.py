@@ -304,4 +304,9 @@ def test_bolts_that_differ_have_a_joint_each():
     regenerated = found.regenerated(4)
     np.testing.assert_allclose(regenerated.values, functions.values, atol=1e-4 * np.abs(functions.values).max())
     np.testing.assert_array_equal(found.regenerated(at=functions).values, regenerated.values)
+    # in the order of what it is subtracted from, and no more of them
+    others = functions.select(functions.responses[::-1], functions.references[:1])
+    again = found.regenerated(at=others)
+    assert (again.responses, again.references) == (others.responses, others.references)
+    np.testing.assert_array_equal(again.values, regenerated.values[:, ::-1, :1])
     assert found.plot().axes[0].lines

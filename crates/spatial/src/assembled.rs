@@ -121,41 +121,72 @@ impl<'p> Assembled<'p> {
         self.line_of(line, self.measured(line))
     }
 
-    /// The assembly of substructures with these functions: Y_C = Y − Y Sᵀ D b with b = (I + H D)⁻¹ S Y, a = Y Sᵀ (I + D H)⁻¹.
+    /// The assembly of substructures with these functions: Y_C = Y − Y Sᵀ D b with b = (I + H D)⁻¹ S Y, a = Y Sᵀ (I + D H)⁻¹. What was
+    /// struck anew, dR_f beside the hits of the substructures, is struck as by these with T_f dR_fᵀ of them more: Y_C (I + T_f dR_fᵀ).
     pub(crate) fn line_of(
         &self,
         line: usize,
-        functions: [&DMatrix<Complex64>; 2],
+        functions_of: [&DMatrix<Complex64>; 2],
     ) -> Result<Line, SpatialError> {
         let Reach {
             by_loads,
             motions,
             seen,
-        } = self.reach_of(functions);
+        } = self.reach_of(functions_of);
         let dynamic = self.dynamic(line);
         let joints = Joints::of(self.problem, &seen, &dynamic);
-        let b = joints.solved(&motions)?;
+        let mut b = joints.solved(&motions)?;
         let a = joints.solved_transposed(&by_loads)?;
         let loads = &dynamic * &b;
         let [rows, columns] = self.problem.skips();
         let observed = self.problem.observed.iter();
-        let functions = observed
+        let mut functions: Vec<Complex64> = observed
             .map(|one| {
                 let [o, i] = one.at;
                 let alone = match (o < rows, i < columns) {
-                    (true, true) => functions[0][(o, i)],
-                    (false, false) => functions[1][(o - rows, i - columns)],
+                    (true, true) => functions_of[0][(o, i)],
+                    (false, false) => functions_of[1][(o - rows, i - columns)],
                     _ => Complex64::default(),
                 };
                 (0..loads.nrows()).fold(alone, |sum, m| sum - by_loads[(o, m)] * loads[(m, i)])
             })
             .collect();
+        for (side, own) in self.transformations.iter().enumerate() {
+            let Some(struck) = &own.struck else { continue };
+            let first = [0, columns][side];
+            let by_side = self.by_loads_of(side, functions_of, &(&a * &dynamic)) * &own.loads;
+            for (one, function) in self.problem.observed.iter().zip(&mut functions) {
+                let [o, i] = one.at;
+                if let Some(i) = i.checked_sub(first).filter(|&i| i < struck.ncols()) {
+                    *function += by_side.row(o).transpose().dot(&struck.column(i));
+                }
+            }
+            let mut own_b = b.columns_mut(first, struck.ncols());
+            let more = &own_b * &own.loads * struck;
+            own_b += more;
+        }
         Ok(Line {
             functions,
             by_joint_loads: a,
             joint_motions: b,
             dynamic,
         })
+    }
+
+    /// L Y with L = I − a D S: what all rows do by the references of a side, whose hits are those of its own test. `left` is a D.
+    fn by_loads_of(
+        &self,
+        side: usize,
+        functions: [&DMatrix<Complex64>; 2],
+        left: &DMatrix<Complex64>,
+    ) -> DMatrix<Complex64> {
+        let sign = Complex64::from([-1.0, 1.0][side]);
+        let first_row = [0, self.problem.skips()[0]][side];
+        let mut by_rows = left * &self.transformations[side].motions * sign;
+        for r in 0..functions[side].nrows() {
+            by_rows[(first_row + r, r)] += 1.0;
+        }
+        by_rows * functions[side]
     }
 
     /// What the assembly has at the joints that are sought, with what this one has of joints.
@@ -186,8 +217,8 @@ impl<'p> Assembled<'p> {
         )?)
     }
 
-    /// What changes of the unknowns do to the functions: of each joint that is sought, then of the sensors and of the impacts of
-    /// each side, where their places may be wrong. [`Patterns`] says how the unknowns are made of them.
+    /// What changes of the unknowns do to the functions: of each joint that is sought, then of the sensors, of the impacts and of the
+    /// assembly's impacts of each side, where their places may be wrong. [`Patterns`] says how the unknowns are made of them.
     pub(crate) fn dyads(&self, line: usize, at: &Line) -> Vec<Group> {
         let mut groups = at.dyads(self.problem);
         if self.problem.tolerances.is_none() {
@@ -199,31 +230,40 @@ impl<'p> Assembled<'p> {
             &at.by_joint_loads * &at.dynamic,
             &at.dynamic * &at.joint_motions,
         );
-        let (mut first_row, mut first_column) = (0, 0);
         for (side, own) in self.transformations.iter().enumerate() {
-            let sign = Complex64::from(if side == 0 { -1.0 } else { 1.0 });
+            let sign = Complex64::from([-1.0, 1.0][side]);
+            let first_column = [0, self.problem.skips()[1]][side];
             let functions = &self.problem.sides[side].lines[line];
-            let (p, q) = functions.shape();
-            // Y R: what the columns of this side come to, for each column of the assembly
-            let mut by_columns = &own.loads * &right * sign;
-            for j in 0..q {
-                by_columns[(j, first_column + j)] += 1.0;
+            let q = functions.ncols();
+            // loads across the interface for each column of the assembly, with those of hits that are elsewhere
+            let mut right = &right * sign;
+            if let Some(struck) = &own.struck {
+                let mut own_right = right.columns_mut(first_column, q);
+                own_right += struck;
             }
+            let references = |factor: &DMatrix<Complex64>| {
+                let mut all = factor.clone();
+                for j in 0..q {
+                    all[(j, first_column + j)] += 1.0;
+                }
+                all
+            };
+            // Y R: what the columns of this side come to, for each column of the assembly
             groups.push(Group {
                 left: &left * sign,
-                right: functions * by_columns,
+                right: functions * references(&(&own.loads * &right)),
             });
             // L Y likewise
-            let mut by_rows = &left * &own.motions * sign;
-            for r in 0..p {
-                by_rows[(first_row + r, r)] += 1.0;
-            }
-            groups.push(Group {
-                left: by_rows * functions,
-                right: &right * sign,
+            let by_loads = self.by_loads_of(side, self.measured(line), &left);
+            let of_hits = (!own.struck_changes.is_empty()).then(|| Group {
+                left: &by_loads * &own.loads,
+                right: references(&DMatrix::zeros(q, right.ncols())),
             });
-            first_row += p;
-            first_column += q;
+            groups.push(Group {
+                left: by_loads,
+                right,
+            });
+            groups.extend(of_hits);
         }
         groups
     }
@@ -231,7 +271,11 @@ impl<'p> Assembled<'p> {
     /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.
     pub(crate) fn changes(&self) -> impl Iterator<Item = &[DMatrix<Complex64>]> {
         let sides = self.transformations.iter();
-        sides.flat_map(|own| [&own.motions_changes[..], &own.loads_changes[..]])
+        sides.flat_map(|own| {
+            let of_hits = Some(&own.struck_changes[..]).filter(|own| !own.is_empty());
+            let of_all = [&own.motions_changes[..], &own.loads_changes[..]];
+            of_all.into_iter().chain(of_hits)
+        })
     }
 
     /// Derivatives of the observed functions by each unknown: observed × unknowns.
@@ -317,7 +361,10 @@ impl Joints {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::{chain, problem, unknowns};
+    use bolted_joint_virtual_point::{Role, VirtualPoint, Weights};
+
+    use crate::samples::{chain, problem, problem_hit_anew, unknowns};
+    use crate::side::Test;
 
     /// Reference: central differences of the model's functions.
     fn compare_with_differences(problem: &Problem) {
@@ -357,6 +404,66 @@ mod tests {
     #[test]
     fn derivatives_are_differences_by_every_unknown() {
         compare_with_differences(&problem());
+    }
+
+    #[test]
+    fn derivatives_by_hits_anew_are_differences() {
+        compare_with_differences(&problem_hit_anew());
+    }
+
+    /// Reference: the same hits as impacts of their own, of a structure that moves as a rigid body.
+    #[test]
+    fn a_hit_that_is_elsewhere_in_the_assembly_is_an_impact_there() {
+        let mut problem = problem_hit_anew().smoothed().unwrap();
+        let at = unknowns(&problem);
+        let first = problem.joint_count() + problem.sides[0].parameters().len();
+        let of_hits = problem.sides[0].parameters();
+        let of_hits = of_hits
+            .iter()
+            .position(|one| one.test == Test::Assembly)
+            .unwrap();
+        let joint = Unknowns(at.0.rows(0, problem.joint_count()).into_owned());
+        let mut with = Unknowns(DVector::zeros(problem.count()));
+        with.0.rows_mut(0, joint.0.len()).copy_from(&joint.0);
+        // the first impact of a moves, and turns by little
+        let moved = [0.004, -0.002, 0.003, 0.0, 0.0, 0.0];
+        with.0
+            .rows_mut(problem.joint_count() + of_hits, 6)
+            .copy_from_slice(&moved);
+        assert!(first > problem.joint_count() + of_hits + 5);
+        let anew = Assembled::new(&problem, &with).unwrap().line(1).unwrap();
+        // what is measured there, without being one of the impacts that loads are made of
+        let side = &mut problem.sides[0];
+        let (placed, set_up) = side.points().unwrap();
+        let errors = placed.parameters(Role::Impact).len();
+        let mut errors = vec![0.0; errors];
+        errors[..6].copy_from_slice(&moved);
+        let channels = vec![0.0; placed.parameters(Role::Channel).len()];
+        let all = [channels, errors].concat();
+        let elsewhere = set_up.displaced(&all).unwrap();
+        let row = elsewhere.impacts().matrix().row(0).map(Complex64::from);
+        let loads = VirtualPoint::new(set_up.clone(), &Weights::Equal, &Weights::Equal);
+        let loads = loads.unwrap().forces_of_loads().map(Complex64::from);
+        for line in &mut side.lines {
+            let more = &*line * &loads * row.transpose();
+            *line = line.clone().insert_column(line.ncols(), Complex64::ZERO);
+            let last = line.ncols() - 1;
+            line.set_column(last, &more.column(0));
+        }
+        side.references.push(side.references[0]);
+        let last = side.references.len() - 1;
+        for one in &mut problem.observed {
+            one.at[1] = match one.at[1] {
+                0 => last,
+                other if other >= last => other + 1,
+                other => other,
+            };
+        }
+        problem.tolerances = None;
+        let expected = Assembled::new(&problem, &joint).unwrap().line(1).unwrap();
+        for (function, expected) in anew.functions.iter().zip(&expected.functions) {
+            assert!((function - expected).norm() < 1e-10 * expected.norm());
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use bolted_joint_virtual_point::{Tolerance, Tolerances};
 use crate::chain::part::{Part, PartInterface};
 use crate::side::Side;
 use crate::study::Reader;
-use crate::tables::{BudgetTable, DeviationsTable};
+use crate::tables::{BudgetTable, DeviationsTable, HitsTable};
 
 /// A standard deviation of the set-up that is larger is in another unit.
 const MOST_DEVIATION: f64 = 1.0;
@@ -17,45 +17,88 @@ const MOST_OF_RIG: f64 = 0.2;
 /// What is exact is known so well, in parts of what a careful laboratory knows: a prior of no width has no weight.
 pub(crate) const EXACT: f64 = 1e-6;
 
+/// How far a hammer hits from where it has hit in another test, and in which direction, with care.
+pub(crate) const HIT_ANEW: Tolerance = Tolerance {
+    position_m: 1e-3,
+    rotation_rad: 0.01,
+    gain: 0.0,
+};
+
+/// How well the set-up is known.
+pub(crate) struct Budget {
+    /// Of all tests; `None` where nothing is wrong with it.
+    pub(crate) tolerances: Option<Tolerances>,
+    /// How far hits of the assembly are from those of the substructures' tests; `None` where they repeat.
+    pub(crate) hits_anew: Option<Tolerance>,
+}
+
 impl Reader<'_> {
-    pub(crate) fn tolerances(
+    pub(crate) fn budget(
         &self,
         table: &BudgetTable,
         sides: &[Side; 2],
         parts: &[Part],
-    ) -> Result<Option<Tolerances>, StudyError> {
+    ) -> Result<Budget, StudyError> {
         let DeviationsTable {
             position,
             rotation,
             gain,
+            hits,
         } = match table {
-            BudgetTable::None => return Ok(None),
+            BudgetTable::None => {
+                return Ok(Budget {
+                    tolerances: None,
+                    hits_anew: None,
+                });
+            }
             BudgetTable::Deviations(own) => *own,
         };
-        let value = |key: &str, given: Option<Deviation>, typical: f64| {
-            let value = given.map_or(typical, |Deviation(value)| value);
-            let expected = "a standard deviation that is finite and not negative, or \"exact\"";
-            let key = format_args!("budget.{key}");
-            self.study.not_negative(key, value, expected)?;
-            let expected = "at most 1: a gain of 0.05 is 5 %, positions are in m, rotations in rad";
-            self.study
-                .ensure(value <= MOST_DEVIATION, key, value, expected)?;
-            Ok::<f64, StudyError>(value.max(EXACT * typical))
-        };
-        if let Some(Deviation(value)) = position {
+        for Deviation(value) in [position, hits.and_then(|own| own.position)]
+            .into_iter()
+            .flatten()
+        {
             self.ensure_smaller_than_rig(value, parts)?;
         }
-        let tolerance = Tolerance {
-            position_m: value("position", position, Tolerance::TYPICAL.position_m)?,
-            rotation_rad: value("rotation", rotation, Tolerance::TYPICAL.rotation_rad)?,
-            gain: value("gain", gain, Tolerance::TYPICAL.gain)?,
+        let typical = Tolerance::TYPICAL;
+        let own = Tolerance {
+            position_m: self.deviation("position", position, typical.position_m)?,
+            rotation_rad: self.deviation("rotation", rotation, typical.rotation_rad)?,
+            gain: self.deviation("gain", gain, typical.gain)?,
         };
+        let HitsTable { position, rotation } = hits.unwrap_or_default();
+        let of_hits = Tolerance {
+            position_m: self.deviation("hits.position", position, HIT_ANEW.position_m)?,
+            rotation_rad: self.deviation("hits.rotation", rotation, HIT_ANEW.rotation_rad)?,
+            gain: 0.0,
+        };
+        let hits_anew = hits.map(|_| of_hits).filter(|own| !is_exact(own));
         // whether anything about a set-up can be wrong
         let has_places = sides.iter().any(|side| !side.parameters().is_empty());
-        Ok((has_places && !is_exact(&tolerance)).then_some(Tolerances {
-            sensors: tolerance,
-            impacts: tolerance,
-        }))
+        let is_known = is_exact(&own) && hits_anew.is_none();
+        Ok(Budget {
+            tolerances: (has_places && !is_known).then_some(Tolerances {
+                sensors: own,
+                impacts: own,
+            }),
+            hits_anew,
+        })
+    }
+
+    /// A standard deviation, or what it is where none is given; of what is exact, one that is as good as none.
+    fn deviation(
+        &self,
+        key: &str,
+        given: Option<Deviation>,
+        typical: f64,
+    ) -> Result<f64, StudyError> {
+        let value = given.map_or(typical, |Deviation(value)| value);
+        let expected = "a standard deviation that is finite and not negative, or \"exact\"";
+        let key = format_args!("budget.{key}");
+        self.study.not_negative(key, value, expected)?;
+        let expected = "at most 1: a gain of 0.05 is 5 %, positions are in m, rotations in rad";
+        self.study
+            .ensure(value <= MOST_DEVIATION, key, value, expected)?;
+        Ok(value.max(EXACT * typical))
     }
 
     /// Positions that are off by as much as the rig measures are in another unit.

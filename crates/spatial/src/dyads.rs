@@ -20,6 +20,7 @@ impl Grid {
 }
 
 /// x (rows × left) and y (right × columns) of one group.
+#[derive(Clone)]
 pub(crate) struct Group {
     pub(crate) left: DMatrix<Complex64>,
     pub(crate) right: DMatrix<Complex64>,

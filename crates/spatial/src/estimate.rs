@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use nalgebra::DMatrix;
 
+use crate::anew;
 use crate::contradicted;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit, Squares, covariance};
-use crate::hidden::{Beside, searched_beside};
+use crate::hidden::{self, Beside, searched_beside};
 use crate::identification::SpatialIdentification;
 use crate::level::{of_residuals, sizes};
 use crate::lossy::{Loss, loss};
@@ -31,9 +32,6 @@ const MANY: usize = 300;
 
 /// Levels that a round changes by less than this part are as they are.
 const SETTLED: f64 = 1e-5;
-
-/// Lines that are looked at for each one of the estimate, where the substructures have noise.
-const LOOKED_AT: usize = 10;
 
 /// Lines of the joint before all take part, where the substructures have noise.
 const FEW: usize = 200;
@@ -73,6 +71,32 @@ pub(crate) struct Found {
     pub(crate) loss: Option<Loss>,
 }
 
+/// Where an estimate goes on from, and the searches that led there.
+struct Begun {
+    best: Fit,
+    starts: [usize; 2],
+}
+
+impl Found {
+    fn begun(self) -> Begun {
+        Begun {
+            best: self.best,
+            starts: self.starts,
+        }
+    }
+
+    /// With errors of hits that it does not have yet.
+    fn for_hits_anew(&self, before: &Problem, anew: &Problem) -> Begun {
+        Begun {
+            best: Fit {
+                unknowns: anew.from_repeated(before, &self.best.unknowns),
+                ..self.best
+            },
+            starts: self.starts,
+        }
+    }
+}
+
 impl SpatialStudy {
     /// The joint.
     ///
@@ -90,8 +114,18 @@ impl SpatialStudy {
         }
         let rms = sizes(problem);
         let mut found = self.found(&rms, None)?;
-        let mut result = self.result(&found)?;
         let mut own = Cow::Borrowed(self);
+        let mut of_hits = None;
+        if let Some(anew) = self.hit_anew(&found)? {
+            let begun = found.for_hits_anew(problem, &anew.problem);
+            let with = anew.found(&rms, Some(begun))?;
+            if anew::explains(&found, &with)? {
+                of_hits = Some(anew.problem.told_anew(&with.best.unknowns));
+                found = with;
+                own = Cow::Owned(anew);
+            }
+        }
+        let mut result = own.result(&found)?;
         for _ in 0..ROUNDS {
             // what a budget that does not hold draws back draws the joint with it
             let is_near = found.joint.has_converged && result.relative_rms < LARGEST_RESIDUAL;
@@ -99,14 +133,15 @@ impl SpatialStudy {
                 .filter(|_| is_near && result.reasons_against.is_empty());
             let Some(wider) = wider else { break };
             own.to_mut().problem.wider = wider;
-            found = own.found(&rms, Some(found))?;
+            found = own.found(&rms, Some(found.begun()))?;
             result = own.result(&found)?;
         }
+        result.warnings.extend(of_hits);
         Ok(result)
     }
 
     /// What fits best, by searches or from where they have come to.
-    fn found(&self, rms: &Deviations, begun: Option<Found>) -> Result<Found, SpatialError> {
+    fn found(&self, rms: &Deviations, begun: Option<Begun>) -> Result<Found, SpatialError> {
         match self.level {
             Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(rms, part, begun),
             _ => self.beside_exact(rms, begun),
@@ -114,7 +149,7 @@ impl SpatialStudy {
     }
 
     /// Where the substructures' functions are exact.
-    fn beside_exact(&self, rms: &Deviations, begun: Option<Found>) -> Result<Found, SpatialError> {
+    fn beside_exact(&self, rms: &Deviations, begun: Option<Begun>) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let errors = problem.error_count();
         let mut level: Deviations = match (self.level, errors) {
@@ -124,7 +159,7 @@ impl SpatialStudy {
         };
         let is_stated = matches!(self.level, Level::Relative(_));
         let (mut best, starts) = match (begun, errors) {
-            (Some(found), _) => (found.best, found.starts),
+            (Some(Begun { best, starts }), _) => (best, starts),
             (None, 0) => {
                 let (found, starts) = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
                 (found.on(problem, &level)?, starts)
@@ -223,23 +258,19 @@ impl SpatialStudy {
         &self,
         rms: &Deviations,
         part: f64,
-        begun: Option<Found>,
+        begun: Option<Begun>,
     ) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let level = parts(rms, part);
         let noise = self.noise;
         let (best, starts) = match begun {
-            Some(found) => (found.best, found.starts),
+            Some(Begun { best, starts }) => (best, starts),
             None => searched_beside(problem, &level, noise)?,
         };
         let mut has_converged = best.has_converged;
         let mut unknowns = best.unknowns;
         // joint and set-up at more lines
-        let some = problem.thinned(LOOKED_AT * LINES_MAX);
-        let kept = Beside::of(&some, &level, noise, &unknowns)?.kept(&unknowns)?;
-        let estimated = some.with_lines(&kept).thinned(LINES_MAX);
-        let explained = Beside::of(&estimated, &level, noise, &unknowns)?.explained(&unknowns)?;
-        let estimated = estimated.with_lines(&explained);
+        let estimated = hidden::estimated(problem, &level, noise, &unknowns)?;
         let mut squares = Beside::of(&estimated, &level, noise, &unknowns)?;
         let best = Fit::by(&mut squares, unknowns, Effort::Full)?;
         has_converged &= best.has_converged;

@@ -9,7 +9,7 @@ use crate::identification::{FunctionFit, SetUpError};
 use crate::level::squares;
 use crate::parallel::over_lines;
 use crate::problem::{Observed, Problem, Unknowns};
-use crate::side::{Placed, Side};
+use crate::side::{Placed, Side, Test};
 
 /// Functions that are shown, of each pair of sides.
 const SHOWN: usize = 2;
@@ -80,9 +80,14 @@ impl Problem {
         parameters
             .zip(self.budget_deviations())
             .enumerate()
-            .map(|(n, ((placed, parameter), expected))| SetUpError {
-                key: placed.key(parameter.place),
-                change: parameter.change,
+            .map(|(n, (one, expected))| SetUpError {
+                key: match one.test {
+                    Test::All => one.placed.key(one.parameter.place),
+                    Test::Assembly => {
+                        format!("{} in the assembly", one.placed.key(one.parameter.place))
+                    }
+                },
+                change: one.parameter.change,
                 value: unknowns.0[first + n],
                 deviation: covariance[(first + n, first + n)].sqrt(),
                 expected,

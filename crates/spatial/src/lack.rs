@@ -12,6 +12,7 @@ use num_complex::Complex64;
 
 use crate::assembled::Assembled;
 use crate::error::SpatialError;
+use crate::level::sizes;
 use crate::normal::Deviations;
 use crate::problem::{Problem, Unknowns};
 
@@ -19,7 +20,7 @@ use crate::problem::{Problem, Unknowns};
 const LINES: usize = 200;
 
 /// Ratio of both, above which what is left is no noise: values of noise that is not alike at all lines leave it near 1.
-const LACKING: f64 = 1.4;
+pub(crate) const LACKING: f64 = 1.4;
 
 /// Residuals of this part of the functions are rounding, or nearly so.
 const ROUNDING: f64 = 1e-5;
@@ -28,10 +29,8 @@ const ROUNDING: f64 = 1e-5;
 pub(crate) fn warning(
     problem: &Problem,
     unknowns: &Unknowns,
-    rms: &Deviations,
 ) -> Result<Option<String>, SpatialError> {
-    let thin = problem.thinned(LINES);
-    let ratio = ratio(&thin, unknowns, rms)?;
+    let ratio = of(problem, unknowns)?;
     Ok((ratio > LACKING).then(|| {
         format!(
             "what is left is no noise: the interface moves in it as a rigid body, {ratio:.1} times as much as noise would make it; something \
@@ -40,6 +39,11 @@ pub(crate) fn warning(
             ratio.sqrt()
         )
     }))
+}
+
+/// How much more the interface moves as a rigid body in what is left than noise would make it.
+pub(crate) fn of(problem: &Problem, unknowns: &Unknowns) -> Result<f64, SpatialError> {
+    ratio(&problem.thinned(LINES), unknowns, &sizes(problem))
 }
 
 /// The larger one of channels and of impacts; 0 where no interface has more of them than motions.

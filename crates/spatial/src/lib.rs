@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 
 mod advice;
+mod anew;
 mod assembled;
 mod budget;
 mod chain;

@@ -8,7 +8,7 @@ use crate::estimate::Found;
 use crate::fits::strongest;
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::lack;
-use crate::level::{relative_rms, sizes};
+use crate::level::relative_rms;
 use crate::lossy::Loss;
 use crate::normal::squares_of_errors;
 use crate::numbers::{Numbers, deviations};
@@ -110,7 +110,7 @@ impl SpatialStudy {
             result.warnings = odd_channels(&compared, &alone.unknowns)?;
         }
         if best.has_converged && result.substructures.is_none() {
-            let of_rest = lack::warning(&compared, &alone.unknowns, &sizes(&compared))?;
+            let of_rest = lack::warning(&compared, &alone.unknowns)?;
             result.warnings.extend(of_rest);
         }
         let of_budget = contradicted::warnings(problem, &result.errors);

@@ -172,7 +172,9 @@ impl Patterns {
             let mut first = 36 * sought.len();
             let counts = problem.sides.iter().flat_map(|side| {
                 let [rows, columns] = [side.responses.len(), side.references.len()];
-                [rows, columns].map(|own| own * problem.motions())
+                let of_hits = side.hits_anew.map(|_| columns);
+                let all = [rows, columns].into_iter().chain(of_hits);
+                all.map(|own| own * problem.motions())
             });
             for (changes, count) in assembled.changes().zip(counts) {
                 for change in changes {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bolted_joint_space::{Dof, Selection, SpaceError};
-use bolted_joint_virtual_point::Tolerances;
+use bolted_joint_virtual_point::{Parameter, Tolerance, Tolerances};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -77,6 +77,7 @@ impl Problem {
             references: side.references.clone(),
             lines: kept.iter().map(|&line| side.lines[line].clone()).collect(),
             interfaces: side.interfaces.clone(),
+            hits_anew: side.hits_anew,
         };
         let observed = |one: &Observed| Observed {
             at: one.at,
@@ -126,13 +127,19 @@ impl Problem {
 
     /// Those of them that are not exact.
     pub(crate) fn open_error_count(&self) -> usize {
+        let Some(tolerances) = &self.tolerances else {
+            return 0;
+        };
         let open = |side: &Side| {
-            let all = side.parameters();
-            let all = all.iter().filter(|(_, one)| {
-                let own = self.tolerances.map(|all| all.of(one.place, one.change));
-                own.is_some_and(|own| own > EXACT * Tolerances::TYPICAL.of(one.place, one.change))
+            let all = side
+                .parameters()
+                .into_iter()
+                .zip(side.deviations(tolerances));
+            let is_open = all.filter(|(one, own)| {
+                let Parameter { place, change } = one.parameter;
+                *own > EXACT * Tolerances::TYPICAL.of(place, change)
             });
-            all.count()
+            is_open.count()
         };
         self.sides.iter().map(open).sum()
     }
@@ -158,6 +165,14 @@ impl Problem {
             *side = side.displaced(errors)?;
         }
         Ok(own)
+    }
+
+    /// With hits of the assembly that may be so far from those of the substructures' tests.
+    pub(crate) fn with_hits(mut self, anew: Option<Tolerance>) -> Self {
+        for side in &mut self.sides {
+            side.hits_anew = anew;
+        }
+        self
     }
 
     /// Standard deviations of the errors of the set-up, as the budget has them.

@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use crate::side::{Interface, Placed, Side};
 
 impl Problem {
-    /// The likely errors of a and of b: 0 of what nothing is told. None, where the set-up is exact.
+    /// The likely errors of a and of b: 0 of what nothing is told, such as hits of the assembly. None, where the set-up is exact.
     pub(crate) fn likely_errors(&self) -> Result<[Vec<f64>; 2], SpatialError> {
         let mut all = [const { Vec::new() }; 2];
         let Some(tolerances) = &self.tolerances else {
@@ -37,6 +37,7 @@ impl Problem {
                     all.extend(found.unwrap_or_else(|| vec![0.0; count]));
                 }
             }
+            all.resize(side.parameters().len(), 0.0);
         }
         Ok(all)
     }

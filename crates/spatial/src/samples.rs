@@ -2,7 +2,7 @@
 
 use bolted_joint_frf::{Direction, Dof, Sign};
 use bolted_joint_space::{Axes, JointModel, Motions};
-use bolted_joint_virtual_point::{Impact, Sensor, SetUp, Tolerances};
+use bolted_joint_virtual_point::{Impact, Sensor, SetUp, Tolerance, Tolerances};
 use nalgebra::{DMatrix, DVector, Vector3};
 use num_complex::Complex64;
 
@@ -35,6 +35,7 @@ fn part(interfaces: usize, seed: &mut u32) -> Side {
             name: "a".to_owned(),
             first: [9 * n, 8 * n],
             interface: Interface::Points(SetUp::new(&sensors, &impacts).unwrap()),
+            struck: None,
         }
     };
     let interfaces: Vec<Placed> = (0..interfaces).map(|n| placed(n, seed)).collect();
@@ -51,6 +52,7 @@ fn part(interfaces: usize, seed: &mut u32) -> Side {
         references: vec![dof; columns],
         lines,
         interfaces,
+        hits_anew: None,
     }
 }
 
@@ -84,6 +86,11 @@ pub(crate) fn problem() -> Problem {
     let mut seed = 5;
     let sides = [part(1, &mut seed), part(1, &mut seed)];
     sample(sides, &[0.03], [&[0, 4, 9, 10, 14, 19], &[0, 7, 8, 15]])
+}
+
+/// The same, where hits of the assembly may be beside those of its parts.
+pub(crate) fn problem_hit_anew() -> Problem {
+    problem().with_hits(Some(Tolerance::TYPICAL))
 }
 
 /// Two joints: three parts, of which the middle one, b, has both.

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::contradicted;
 use crate::problem::{Problem, Unknowns};
-use crate::side::Side;
+use crate::side::{Side, Test};
 
 /// Deviations of the budget beyond which a mean over all places is no chance.
 const BEYOND: f64 = 4.0;
@@ -80,7 +80,7 @@ fn mean(
     let errors = problem.errors(unknowns).concat();
     let parameters = || sides.iter().flatten();
     let is_of_kind: Vec<bool> = parameters()
-        .map(|(_, one)| one.change == Change::Pose(dof))
+        .map(|one| one.test == Test::All && one.parameter.change == Change::Pose(dof))
         .collect();
     let kept = |left_out: Option<usize>| -> Vec<bool> {
         let places = is_of_kind.iter().enumerate();

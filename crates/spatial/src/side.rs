@@ -6,7 +6,7 @@
 use bolted_joint_frf::Dof;
 use bolted_joint_space::Motions;
 use bolted_joint_virtual_point::{
-    Parameter, Role, SetUp, Tolerances, VirtualPoint, VirtualPointError, Weights,
+    Change, Parameter, Role, SetUp, Tolerance, Tolerances, VirtualPoint, VirtualPointError, Weights,
 };
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -25,6 +25,8 @@ pub(crate) struct Side {
     pub(crate) lines: Vec<DMatrix<Complex64>>,
     /// One for each joint, in their order.
     pub(crate) interfaces: Vec<Placed>,
+    /// How far each hit of the assembly may be from that of the structure's own test; `None` where hits repeat.
+    pub(crate) hits_anew: Option<Tolerance>,
 }
 
 /// An interface, and where its channels and impacts are among those of the side.
@@ -35,6 +37,26 @@ pub(crate) struct Placed {
     /// Its first response, and its first reference.
     pub(crate) first: [usize; 2],
     pub(crate) interface: Interface,
+    /// What R_f of the assembly's hits has beyond that of the structure's own test, impacts × 6, as far as it is known; `None` where
+    /// it is the same.
+    pub(crate) struck: Option<DMatrix<f64>>,
+}
+
+/// In which test something is wrong with a sensor or an impact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Test {
+    /// In all tests alike.
+    All,
+    /// In that of the assembly, against all.
+    Assembly,
+}
+
+/// What may be wrong with a set-up.
+pub(crate) struct Error<'s> {
+    /// The interface that it belongs to.
+    pub(crate) placed: &'s Placed,
+    pub(crate) parameter: Parameter,
+    pub(crate) test: Test,
 }
 
 /// How the interface is seen.
@@ -64,6 +86,26 @@ impl Placed {
             Interface::Points(set_up) => set_up.places(role).parameters(),
         }
     }
+
+    /// What a hit anew changes: places and directions of the hammer, with dR_f by each, impacts × 6.
+    pub(crate) fn hits(&self) -> Vec<(Parameter, DMatrix<f64>)> {
+        let Interface::Points(set_up) = &self.interface else {
+            return Vec::new();
+        };
+        let impacts = set_up.impacts();
+        let all = impacts.parameters().into_iter().zip(impacts.derivatives());
+        all.filter(|(parameter, _)| matches!(parameter.change, Change::Pose(_)))
+            .collect()
+    }
+
+    /// What R_f of the assembly's hits has beyond that of the structure's own test, with these errors of theirs.
+    fn struck(&self, errors: &[f64]) -> Option<DMatrix<f64>> {
+        let changes = self.hits().into_iter().zip(errors);
+        changes.fold(self.struck.clone(), |sum, ((_, change), error)| {
+            let own = change * *error;
+            Some(sum.map_or_else(|| own.clone(), |sum| sum + &own))
+        })
+    }
 }
 
 /// T_u (motions × responses) and T_f (references × motions), and how they change with each error of the set-up: of sensors, then
@@ -74,6 +116,10 @@ pub(crate) struct Transformations {
     pub(crate) loads: DMatrix<Complex64>,
     pub(crate) motions_changes: Vec<DMatrix<Complex64>>,
     pub(crate) loads_changes: Vec<DMatrix<Complex64>>,
+    /// What loads of the assembly's hits have beyond those of the structure's own test, motions × references, where they have any;
+    /// and how that changes with each error of a hit.
+    pub(crate) struck: Option<DMatrix<Complex64>>,
+    pub(crate) struck_changes: Vec<DMatrix<Complex64>>,
 }
 
 /// What the functions of a side with a rigid interface follow from, Y = R_u h R_fᵀ: those between motions and loads of the
@@ -172,16 +218,32 @@ impl Side {
         })
     }
 
-    /// Errors that the set-up may have, with the interface that they belong to: those of channels, then those of impacts.
-    pub(crate) fn parameters(&self) -> Vec<(&Placed, Parameter)> {
+    /// Errors that the set-up may have: those of channels, those of impacts, and those of the assembly's impacts against these.
+    pub(crate) fn parameters(&self) -> Vec<Error<'_>> {
         let of = |role| {
             let placed = self.interfaces.iter();
             placed.flat_map(move |placed| {
                 let own = placed.parameters(role).into_iter();
-                own.map(move |parameter| (placed, parameter))
+                own.map(move |parameter| Error {
+                    placed,
+                    parameter,
+                    test: Test::All,
+                })
             })
         };
-        of(Role::Channel).chain(of(Role::Impact)).collect()
+        let of_hits = self.interfaces.iter().filter(|_| self.hits_anew.is_some());
+        let of_hits = of_hits.flat_map(|placed| {
+            let own = placed.hits().into_iter();
+            own.map(move |(parameter, _)| Error {
+                placed,
+                parameter,
+                test: Test::Assembly,
+            })
+        });
+        of(Role::Channel)
+            .chain(of(Role::Impact))
+            .chain(of_hits)
+            .collect()
     }
 
     /// Standard deviations of these errors.
@@ -189,19 +251,30 @@ impl Side {
         let parameters = self.parameters();
         let of = parameters
             .iter()
-            .map(|(_, one)| tolerances.of(one.place, one.change));
+            .map(|one| match (one.test, &self.hits_anew) {
+                (Test::Assembly, Some(own)) => own.of(one.parameter.change),
+                _ => tolerances.of(one.parameter.place, one.parameter.change),
+            });
         of.collect()
     }
 
-    /// The errors of each interface: of its channels, then of its impacts.
-    fn errors_of_each(&self, errors: &[f64]) -> Vec<Vec<f64>> {
-        let mut own: Vec<Vec<f64>> = vec![Vec::new(); self.interfaces.len()];
-        let mut start = 0;
+    /// The errors of each interface: of its channels and of its impacts; and of the assembly's impacts.
+    fn errors_of_each(&self, errors: &[f64]) -> Vec<[Vec<f64>; 2]> {
+        let mut own = vec![[const { Vec::new() }; 2]; self.interfaces.len()];
+        let mut rest = errors;
+        let mut next = |count: usize| {
+            let (first, others) = rest.split_at(count);
+            rest = others;
+            first
+        };
         for role in [Role::Channel, Role::Impact] {
-            for (own, placed) in own.iter_mut().zip(&self.interfaces) {
-                let count = placed.parameters(role).len();
-                own.extend_from_slice(&errors[start..start + count]);
-                start += count;
+            for ([own, _], placed) in own.iter_mut().zip(&self.interfaces) {
+                own.extend_from_slice(next(placed.parameters(role).len()));
+            }
+        }
+        if self.hits_anew.is_some() {
+            for ([_, own], placed) in own.iter_mut().zip(&self.interfaces) {
+                own.extend_from_slice(next(placed.hits().len()));
             }
         }
         own
@@ -210,7 +283,9 @@ impl Side {
     /// With errors of the set-up, and exact so.
     pub(crate) fn displaced(&self, errors: &[f64]) -> Result<Self, OfInterface> {
         let mut own = self.clone();
-        for (placed, errors) in own.interfaces.iter_mut().zip(self.errors_of_each(errors)) {
+        let each = self.errors_of_each(errors);
+        for (placed, [errors, of_hits]) in own.interfaces.iter_mut().zip(each) {
+            placed.struck = placed.struck(&of_hits);
             let displaced = placed.interface.displaced(&errors);
             placed.interface = displaced.map_err(|source| placed.refused(source))?;
         }
@@ -226,9 +301,11 @@ impl Side {
             loads: DMatrix::zeros(columns, motions),
             motions_changes: Vec::new(),
             loads_changes: Vec::new(),
+            struck: None,
+            struck_changes: Vec::new(),
         };
         let errors = self.errors_of_each(errors);
-        for (n, (placed, errors)) in self.interfaces.iter().zip(&errors).enumerate() {
+        for (n, (placed, [errors, of_hits])) in self.interfaces.iter().zip(&errors).enumerate() {
             let [first_row, first_column] = placed.first;
             // zero for what is no channel or impact of this interface
             let by_rows = |own: &DMatrix<f64>| {
@@ -272,6 +349,15 @@ impl Side {
             all.loads += by_columns(&point.forces_of_loads().transpose());
             all.motions_changes.extend(by_channels.iter().map(by_rows));
             all.loads_changes.extend(by_impacts.iter().map(by_columns));
+            let by_hits = |own: &DMatrix<f64>| by_columns(&own.transpose()).transpose();
+            if let Some(own) = placed.struck(of_hits) {
+                let none = || DMatrix::zeros(motions, columns);
+                *all.struck.get_or_insert_with(none) += by_hits(&own);
+            }
+            if self.hits_anew.is_some() {
+                let hits = placed.hits();
+                (all.struck_changes).extend(hits.iter().map(|(_, own)| by_hits(own)));
+            }
         }
         Ok(all)
     }

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 
 use crate::fit::covariance;
 use crate::problem::Problem;
+use crate::side::Test;
 
 /// Information on an error of the set-up that is known, in parts of what there is.
 const KNOWN: f64 = 1e9;
@@ -75,9 +76,10 @@ fn groups(problem: &Problem) -> Vec<(String, Vec<usize>)> {
         return Vec::new();
     }
     let parameters = problem.sides.iter().flat_map(|side| side.parameters());
-    let kinds = parameters.map(|(placed, parameter)| match parameter.place {
-        Place::Sensor(_) | Place::Channel(_) => format!("sensors of {}", placed.name),
-        Place::Impact(_) => format!("impacts of {}", placed.name),
+    let kinds = parameters.map(|one| match (one.test, one.parameter.place) {
+        (Test::Assembly, _) => format!("hits anew on {}", one.placed.name),
+        (_, Place::Sensor(_) | Place::Channel(_)) => format!("sensors of {}", one.placed.name),
+        (_, Place::Impact(_)) => format!("impacts of {}", one.placed.name),
     });
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
     for (place, kind) in kinds.enumerate() {

@@ -89,6 +89,7 @@ impl SpatialStudy {
                 .as_ref()
                 .and_then(|assembly| unmatched(&sides, &observed, assembly)),
         );
+        let budget = reader.budget(&file.budget, &sides, &chain.parts)?;
         Ok(Self {
             motions: chain.motions,
             path: study.path().to_owned(),
@@ -101,14 +102,15 @@ impl SpatialStudy {
             zero_functions,
             assumed,
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, &sides, &chain.parts)?,
+                tolerances: budget.tolerances,
                 wider: Vec::new(),
                 balance: None,
                 sides,
                 frequency_hz,
                 observed,
                 links: Links(vec![link]),
-            },
+            }
+            .with_hits(budget.hits_anew),
         })
     }
 

@@ -294,7 +294,7 @@ impl<'de> Deserialize<'de> for BudgetTable {
             type Value = BudgetTable;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"none\" or a table with position, rotation and gain")
+                f.write_str("\"none\" or a table with position, rotation, gain and hits")
             }
 
             fn visit_str<E: de::Error>(self, word: &str) -> Result<BudgetTable, E> {
@@ -321,6 +321,17 @@ pub(crate) struct DeviationsTable {
     /// rad.
     pub(crate) rotation: Option<Deviation>,
     pub(crate) gain: Option<Deviation>,
+    /// How far hits of the assembly are from those of the substructures' tests.
+    pub(crate) hits: Option<HitsTable>,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HitsTable {
+    /// m.
+    pub(crate) position: Option<Deviation>,
+    /// rad.
+    pub(crate) rotation: Option<Deviation>,
 }
 
 impl Default for BudgetTable {

@@ -272,6 +272,7 @@ impl Part {
                 name: own.name.clone(),
                 first,
                 interface: set_up.map_or(Interface::Node(own.motions), Interface::Points),
+                struck: None,
             });
         }
         rows.extend(self.responses.iter().copied().map(Row::own));
@@ -281,6 +282,7 @@ impl Part {
             references: columns.iter().map(|row| row.dof).collect(),
             lines: self.lines(study, &rows, &columns, frequency_hz)?,
             interfaces,
+            hits_anew: None,
         };
         // what the places do not see is told at once
         let none = vec![0.0; side.parameters().len()];
@@ -414,6 +416,7 @@ pub(crate) fn joined(sides: Vec<Side>) -> Side {
         references: Vec::new(),
         lines: Vec::new(),
         interfaces: Vec::new(),
+        hits_anew: None,
     };
     let mut all = sides.next().unwrap_or(none);
     for mut own in sides {

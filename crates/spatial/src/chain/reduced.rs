@@ -138,7 +138,9 @@ impl ChainStudy {
                 name: own.name.clone(),
                 first: [0, 0],
                 interface,
+                struck: None,
             }],
+            hits_anew: None,
         })
     }
 }

@@ -240,6 +240,7 @@ impl ChainStudy {
             Some(table) => Some(reader.candidates(table, &parts)?),
             None => None,
         };
+        let budget = reader.budget(&file.budget, &sides, &parts)?;
         Ok(Self {
             path: study.path().to_owned(),
             name: file.name,
@@ -251,14 +252,15 @@ impl ChainStudy {
             text: study.clone(),
             motions,
             problem: Problem {
-                tolerances: reader.tolerances(&file.budget, &sides, &parts)?,
+                tolerances: budget.tolerances,
                 wider: Vec::new(),
                 balance: None,
                 sides,
                 frequency_hz,
                 observed: Vec::new(),
                 links: Links(links),
-            },
+            }
+            .with_hits(budget.hits_anew),
             parts,
             assembly,
             assumed,

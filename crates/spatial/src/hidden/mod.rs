@@ -20,7 +20,7 @@ mod tests;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_complex::Complex64;
 
-pub(crate) use self::search::searched_beside;
+pub(crate) use self::search::{estimated, searched_beside};
 
 use self::model::{Computed, Hidden, Model, between_nodes};
 use self::noise::{Grids, reduced_by, weights};
@@ -227,11 +227,14 @@ impl<'p> Beside<'p> {
         for n in [0, 1] {
             let mut own = vec![(places[n], model.of_hidden_alone(n))];
             if self.has_set_up(n) {
-                let in_assembly = model.of_set_up(n, computed).map(&mut put);
+                let [of_channels, of_impacts] = model.of_set_up(n, computed);
+                let again = (!model.rows[n].of_hits.is_empty()).then(|| of_impacts.clone());
+                let in_assembly = [of_channels, of_impacts].map(&mut put);
                 let of_own = model.of_set_up_alone(n, hidden);
                 let firsts = in_assembly.each_ref().map(|(place, _)| *place);
                 own.extend(firsts.into_iter().zip(of_own));
                 groups.extend(in_assembly);
+                groups.extend(again.map(&mut put));
             }
             alone.push(Compared {
                 grid: &self.grids.own[n][line],
@@ -264,8 +267,7 @@ impl<'p> Beside<'p> {
         for n in [0, 1] {
             if self.has_set_up(n) {
                 of_set_up.extend(model.rows[n].patterns(first));
-                let motions = model.rows[n].reduction.own.count();
-                first += motions * model.rows[n].near().iter().sum::<usize>();
+                first += model.rows[n].dyads();
             }
         }
         let patterns = Patterns::beside(self.problem, of_set_up);

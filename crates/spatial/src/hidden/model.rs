@@ -36,8 +36,10 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
                     name: placed.name.clone(),
                     first: [0, 0],
                     interface: Interface::Node(own.motions_of_one()),
+                    struck: None,
                 })
                 .collect(),
+            hits_anew: None,
         }
     };
     let sides = [side(0), side(1)];
@@ -68,7 +70,7 @@ pub(super) struct Model<'p> {
     nodes: &'p Problem,
     assembled: Assembled<'p>,
     pub(super) rows: [Rows; 2],
-    /// R_u and R_f of both sides.
+    /// R_u and R_f of both sides in the assembly.
     all: [DMatrix<Complex64>; 2],
 }
 
@@ -92,13 +94,13 @@ impl<'p> Model<'p> {
         let joint = Unknowns(unknowns.0.rows(0, problem.joint_count()).into_owned());
         let [a, b] = [0, 1].map(|n| Rows::of(&problem.sides[n], &errors[n]));
         let rows = [a?, b?];
-        let [a, b] = [&rows[0].reduction, &rows[1].reduction];
+        let [a, b] = &rows;
         Ok(Self {
             nodes,
             assembled: Assembled::new(nodes, &joint)?,
             all: [
-                block_diagonal([&a.rows, &b.rows]),
-                block_diagonal([&a.columns, &b.columns]),
+                block_diagonal([&a.reduction.rows, &b.reduction.rows]),
+                block_diagonal([&a.struck, &b.struck]),
             ],
             rows,
         })
@@ -143,7 +145,7 @@ impl<'p> Model<'p> {
                 (0, first_column),
                 (own.columns.ncols(), own.columns.nrows()),
             )
-            .copy_from(&own.columns.transpose());
+            .copy_from(&self.rows[side].struck.transpose());
         let mut of_interface = right.rows_mut(0, motions.len());
         let changes = (&at.line.dynamic * b) * references.transpose() * sign;
         of_interface -= changes.select_rows(&motions);
@@ -170,7 +172,7 @@ impl<'p> Model<'p> {
         .collect()
     }
 
-    /// Of the rows of R_u and of R_f of a side: in the assembly.
+    /// Of the rows of R_u and of R_f of a side: in the assembly. What its hits alone have beyond those of the substructure acts as the latter.
     pub(super) fn of_set_up(&self, side: usize, at: &Computed) -> [Group; 2] {
         let before = match side {
             0 => [0; 4],

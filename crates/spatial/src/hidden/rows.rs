@@ -12,8 +12,12 @@ use crate::side::{Reduction, Side};
 pub(super) struct Rows {
     /// R_u, responses × (motions + others); R_f, references × (motions + others); and their inverses.
     pub(super) reduction: Reduction,
+    /// R_f of the assembly, whose hits may be others.
+    pub(super) struck: DMatrix<Complex64>,
     /// dR_u by each error of the sensors, channels × motions; dR_f by each of the impacts, impacts × motions.
     pub(super) changes: [Vec<DMatrix<f64>>; 2],
+    /// Likewise dR_f of the assembly by each error of its hits against these.
+    pub(super) of_hits: Vec<DMatrix<f64>>,
 }
 
 impl Rows {
@@ -21,7 +25,19 @@ impl Rows {
         let displaced = side.displaced(errors)?;
         let reduction = displaced.reduction()?;
         let mut changes = [Vec::new(), Vec::new()];
+        let mut of_hits = Vec::new();
+        let mut struck = reduction.columns.clone();
         if let Some((placed, set_up)) = displaced.points() {
+            let motions = reduction.own.rows();
+            if let Some(own) = &placed.struck {
+                let own = own.select_columns(&motions).map(Complex64::from);
+                let mut near = struck.view_mut((0, 0), own.shape());
+                near += own;
+            }
+            if let Some((placed, _)) = side.points().filter(|_| side.hits_anew.is_some()) {
+                let hits = placed.hits().into_iter();
+                of_hits.extend(hits.map(|(_, change)| change.select_columns(&motions)));
+            }
             let mut rest = errors;
             for (own, role) in changes.iter_mut().zip([Role::Channel, Role::Impact]) {
                 let places = set_up.places(role);
@@ -31,11 +47,16 @@ impl Rows {
                 let by_vectors = places.by_rotation_vectors(own, first);
                 by_vectors.map_err(|source| placed.refused(source))?;
                 for change in own {
-                    *change = change.select_columns(&reduction.own.rows());
+                    *change = change.select_columns(&motions);
                 }
             }
         }
-        Ok(Self { reduction, changes })
+        Ok(Self {
+            reduction,
+            struck,
+            changes,
+            of_hits,
+        })
     }
 
     /// Channels, and impacts, of the interface.
@@ -45,8 +66,8 @@ impl Rows {
         [&self.reduction.rows, &self.reduction.columns].map(near)
     }
 
-    /// What each error does, by the dyads of the channels (first those, channel by channel, all motions each) and of the impacts
-    /// (motion by motion, all impacts each); `first` is the place of the first dyad.
+    /// What each error does, by the dyads of the channels (first those, channel by channel, all motions each), of the impacts and of
+    /// the assembly's hits (motion by motion, all impacts each); `first` is the place of the first dyad.
     pub(super) fn patterns(&self, first: usize) -> Vec<Pattern> {
         let [channels, impacts] = self.near();
         let motions = self.reduction.own.count();
@@ -55,10 +76,20 @@ impl Rows {
             Pattern::new(places.map(|(p, q)| (first + motions * p + q, change[(p, q)])))
         });
         let first = first + motions * channels;
-        let of_impacts = self.changes[1].iter().map(|change| {
+        let of_forces = move |first: usize, change: &DMatrix<f64>| {
             let places = (0..motions).flat_map(|p| (0..impacts).map(move |q| (p, q)));
             Pattern::new(places.map(|(p, q)| (first + impacts * p + q, change[(q, p)])))
-        });
-        of_channels.chain(of_impacts).collect()
+        };
+        let of_impacts = self.changes[1].iter().map(|own| of_forces(first, own));
+        let first = first + motions * impacts;
+        let of_hits = self.of_hits.iter().map(|own| of_forces(first, own));
+        of_channels.chain(of_impacts).chain(of_hits).collect()
+    }
+
+    /// Dyads that these are made of.
+    pub(super) fn dyads(&self) -> usize {
+        let [channels, impacts] = self.near();
+        let again = if self.of_hits.is_empty() { 0 } else { impacts };
+        self.reduction.own.count() * (channels + impacts + again)
     }
 }

@@ -8,6 +8,10 @@ use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
 use crate::search::{BY_CHANCE, SEARCHED};
 use crate::starts::starts;
+use crate::together::LINES_MAX;
+
+/// Lines that are looked at for each one of the estimate.
+const LOOKED_AT: usize = 10;
 
 /// Lines of the search from several starts.
 const LINES: usize = 12;
@@ -24,60 +28,233 @@ const EXPECTED: f64 = 1.5;
 /// A search that has come as low as the lowest, up to this part.
 const AS_LOW: f64 = 1e-3;
 
+/// Starts that are followed before low frequencies are asked, and there.
+const AT_FIRST: usize = 2;
+
+/// Lines of low frequencies, one of so many; and the least of them.
+const LOW: [usize; 2] = [8, 4];
+const LOW_MIN: usize = LINES;
+
 /// The lowest of the searches at a few lines, how many starts were tried and how many came as low. None is tried after one that
 /// noise and budget explain as chance has it, or after two that agree on what is not far above.
+///
+/// A soft joint is seen at low frequencies alone: above, what all lines say of it is the noise of the substructures. So where the
+/// first searches come to nothing, low frequencies are searched by themselves, and all from where these lead.
 pub(crate) fn searched_beside(
     problem: &Problem,
     level: &Deviations,
     noise: [f64; 2],
 ) -> Result<(Fit, [usize; 2]), SpatialError> {
-    let likely = problem.likely_errors()?;
-    let known = problem.thinned(SEARCHED).with_errors(&likely)?.smoothed()?;
-    let begun: Vec<Unknowns> = starts(&known, level)?
-        .map(|joint| joint.beside(&likely))
-        .collect();
-    let first = begun.first().ok_or(SpatialError::NoStart)?;
-    // the lines at which noise moves least, as far as the joint is known
-    let some = problem.thinned(10 * LINES);
-    let steady = Beside::of(&some, level, noise, first)?.steadiest(first)?;
-    let few = some.with_lines(&steady).thinned(LINES);
-    let mut squares = Beside::of(&few, level, noise, first)?;
-    let numbers = squares.numbers() as f64;
-    let errors = problem.error_count() as f64;
-    let mut starts: Vec<(f64, Unknowns)> = (begun.into_iter())
-        .filter_map(|start| Some((squares.cost_as_measured(&start).ok()?, start)))
-        .collect();
-    starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    let explained = |fit: &Fit| {
-        fit.cost < EXPLAINED * numbers
-            && squares_of_errors(problem, &fit.unknowns) <= EXPECTED * errors
+    let given = Given {
+        problem,
+        level,
+        noise,
     };
-    // χ² of ν numbers is ν ± √(2 ν)
-    let by_chance = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
-    let mut best: Option<Fit> = None;
-    let (mut tried, mut agreeing) = (0, 0);
-    for (residual, start) in starts {
-        tried += 1;
-        let Ok(fit) = let_down(&mut squares, start, residual) else {
-            continue;
-        };
-        let lowest = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-        agreeing = match fit.cost {
-            own if own > lowest * (1.0 + AS_LOW) => agreeing,
-            own if own >= lowest * (1.0 - AS_LOW) => agreeing + 1,
-            _ => 1,
-        };
-        if fit.cost < lowest {
-            best = Some(fit);
-        }
-        let is_enough = |best: &Fit| explained(best) && (best.cost < by_chance || agreeing > 1);
-        if best.as_ref().is_some_and(is_enough) {
-            break;
+    let begun = given.starts()?;
+    let first = begun.first().ok_or(SpatialError::NoStart)?;
+    let few = given.few(first)?;
+    let mut searches = Searches::new(given, Beside::of(&few, level, noise, first)?);
+    let mut starts = searches.lowest_first(begun).into_iter();
+    if !searches.follow(starts.by_ref().take(AT_FIRST)) {
+        let of_low = given.low();
+        let mut of_low = of_low.iter().filter_map(Low::found);
+        if !of_low.any(|found| searches.holds(found)) {
+            searches.follow(starts);
         }
     }
-    let mut best = best.ok_or(SpatialError::NoStart)?;
-    best.has_converged &= explained(&best) || 2 * agreeing > tried;
-    Ok((best, [tried, agreeing]))
+    searches.ended()
+}
+
+/// What is searched.
+#[derive(Clone, Copy)]
+struct Given<'p> {
+    problem: &'p Problem,
+    level: &'p Deviations,
+    noise: [f64; 2],
+}
+
+/// Lowest lines of a problem.
+struct Low<'p> {
+    problem: Problem,
+    level: &'p Deviations,
+    noise: [f64; 2],
+}
+
+impl<'p> Given<'p> {
+    fn starts(&self) -> Result<Vec<Unknowns>, SpatialError> {
+        let likely = self.problem.likely_errors()?;
+        let known = self.problem.thinned(SEARCHED);
+        let known = known.with_errors(&likely)?.smoothed()?;
+        Ok(starts(&known, self.level)?
+            .map(|joint| joint.beside(&likely))
+            .collect())
+    }
+
+    /// The lines at which noise moves least, as far as the joint is known.
+    fn few(&self, first: &Unknowns) -> Result<Problem, SpatialError> {
+        let some = self.problem.thinned(10 * LINES);
+        let steady = Beside::of(&some, self.level, self.noise, first)?.steadiest(first)?;
+        Ok(some.with_lines(&steady).thinned(LINES))
+    }
+
+    /// Low frequencies by themselves, the lowest first.
+    fn low(&self) -> Vec<Low<'p>> {
+        let lines = self.problem.frequency_hz.len();
+        let counts = LOW.map(|part| (lines / part).max(LOW_MIN));
+        let counts = counts.into_iter().filter(|&count| 2 * count <= lines);
+        let of = |count: usize| Low {
+            problem: self.problem.with_lines(&(0..count).collect::<Vec<_>>()),
+            level: self.level,
+            noise: self.noise,
+        };
+        counts.map(of).collect()
+    }
+}
+
+impl Low<'_> {
+    /// What noise explains there, if anything was found.
+    fn found(&self) -> Option<Unknowns> {
+        let given = Given {
+            problem: &self.problem,
+            level: self.level,
+            noise: self.noise,
+        };
+        let begun = given.starts().ok()?;
+        let first = begun.first()?;
+        let few = given.few(first).ok()?;
+        let squares = Beside::of(&few, self.level, self.noise, first).ok()?;
+        let mut searches = Searches::new(given, squares);
+        let starts = searches.lowest_first(begun).into_iter();
+        let is_enough = searches.follow(starts.take(AT_FIRST));
+        searches
+            .best
+            .map(|best| best.unknowns)
+            .filter(|_| is_enough)
+    }
+}
+
+/// What came of the searches so far.
+struct Searches<'p> {
+    given: Given<'p>,
+    squares: Beside<'p>,
+    best: Option<Fit>,
+    /// What noise explains at the lines of the estimate.
+    held: Option<Unknowns>,
+    /// Whether noise does not explain there what the lowest leaves.
+    is_refuted: bool,
+    tried: usize,
+    agreeing: usize,
+}
+
+impl<'p> Searches<'p> {
+    fn new(given: Given<'p>, squares: Beside<'p>) -> Self {
+        Self {
+            given,
+            squares,
+            best: None,
+            held: None,
+            is_refuted: false,
+            tried: 0,
+            agreeing: 0,
+        }
+    }
+
+    fn lowest_first(&self, begun: Vec<Unknowns>) -> Vec<(f64, Unknowns)> {
+        let mut starts: Vec<(f64, Unknowns)> = (begun.into_iter())
+            .filter_map(|start| Some((self.squares.cost_as_measured(&start).ok()?, start)))
+            .collect();
+        starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        starts
+    }
+
+    /// Follows one after the other until there is no need of more; says whether that is so.
+    fn follow(&mut self, starts: impl Iterator<Item = (f64, Unknowns)>) -> bool {
+        let numbers = self.squares.numbers() as f64;
+        // χ² of ν numbers is ν ± √(2 ν)
+        let by_chance = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
+        for (residual, start) in starts {
+            self.tried += 1;
+            let Ok(fit) = let_down(&mut self.squares, start, residual) else {
+                continue;
+            };
+            let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
+            self.agreeing = match fit.cost {
+                own if own > lowest * (1.0 + AS_LOW) => self.agreeing,
+                own if own >= lowest * (1.0 - AS_LOW) => self.agreeing + 1,
+                _ => 1,
+            };
+            if fit.cost < lowest {
+                self.best = Some(fit);
+            }
+            let is_enough =
+                |best: &&Fit| self.explains(best) && (best.cost < by_chance || self.agreeing > 1);
+            let enough = self.best.as_ref().filter(is_enough);
+            let enough = enough.map(|best| best.unknowns.clone());
+            if enough.is_some_and(|unknowns| self.holds(unknowns)) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether noise explains what these leave at the lines of the estimate, too: a few lines may say nothing of the joint. The
+    /// search is at its end there.
+    fn holds(&mut self, unknowns: Unknowns) -> bool {
+        let Given {
+            problem,
+            level,
+            noise,
+        } = self.given;
+        let lines = estimated(problem, level, noise, &unknowns);
+        let at_more = lines.and_then(|lines| {
+            let mut squares = Beside::of(&lines, level, noise, &unknowns)?;
+            let fit = Fit::by(&mut squares, unknowns, Effort::Coarse)?;
+            Ok((fit.cost / squares.numbers() as f64, fit.unknowns))
+        });
+        let Ok((left, unknowns)) = at_more else {
+            return false;
+        };
+        let holds = left < EXPLAINED;
+        self.held = holds.then_some(unknowns);
+        self.is_refuted = !holds;
+        holds
+    }
+
+    /// Whether noise and budget explain what is left, or nearly so.
+    fn explains(&self, fit: &Fit) -> bool {
+        let errors = self.given.problem.error_count() as f64;
+        fit.cost < EXPLAINED * self.squares.numbers() as f64
+            && squares_of_errors(self.given.problem, &fit.unknowns) <= EXPECTED * errors
+    }
+
+    fn ended(mut self) -> Result<(Fit, [usize; 2]), SpatialError> {
+        let mut best = self.best.take().ok_or(SpatialError::NoStart)?;
+        match self.held.take() {
+            Some(unknowns) => {
+                best.unknowns = unknowns;
+                best.has_converged = true;
+            }
+            None => {
+                let is_known = self.explains(&best) && !self.is_refuted;
+                best.has_converged &= is_known || 2 * self.agreeing > self.tried;
+            }
+        }
+        Ok((best, [self.tried, self.agreeing]))
+    }
+}
+
+/// The lines of the estimate, near these unknowns: some at which noise of the substructures moves little, and explains what is left.
+pub(crate) fn estimated(
+    problem: &Problem,
+    level: &Deviations,
+    noise: [f64; 2],
+    unknowns: &Unknowns,
+) -> Result<Problem, SpatialError> {
+    let some = problem.thinned(LOOKED_AT * LINES_MAX);
+    let kept = Beside::of(&some, level, noise, unknowns)?.kept(unknowns)?;
+    let lines = some.with_lines(&kept).thinned(LINES_MAX);
+    let explained = Beside::of(&lines, level, noise, unknowns)?.explained(unknowns)?;
+    Ok(lines.with_lines(&explained))
 }
 
 /// From one start, whose squares are known: with noise as large as they are at first, which is let down to what it is.

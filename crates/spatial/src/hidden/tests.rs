@@ -2,13 +2,13 @@ use nalgebra::DMatrix;
 
 use super::follow::advanced;
 use super::*;
-use crate::samples::{number, problem, unknowns};
+use crate::samples::{number, problem, problem_hit_anew, unknowns};
 
 const NOISE: [f64; 2] = [0.02, 0.03];
 
 /// A problem whose functions follow from rigid interfaces, but for some noise; its levels and where it is looked at.
-fn sample() -> (Problem, Deviations, Unknowns) {
-    let mut problem = problem().smoothed().unwrap();
+fn sample(problem: Problem) -> (Problem, Deviations, Unknowns) {
+    let mut problem = problem.smoothed().unwrap();
     let mut seed = 9;
     for side in &mut problem.sides {
         for line in &mut side.lines {
@@ -52,7 +52,16 @@ fn moved(at: &Unknowns, unknown: usize, by: f64) -> Unknowns {
 /// Reference: differences of the squares, with h at its best for either side.
 #[test]
 fn the_descent_is_that_of_the_squares_without_h() {
-    let (problem, level, at) = sample();
+    compare_descent(problem());
+}
+
+#[test]
+fn the_descent_by_hits_anew_is_that_of_the_squares_without_h() {
+    compare_descent(problem_hit_anew());
+}
+
+fn compare_descent(problem: Problem) {
+    let (problem, level, at) = sample(problem);
     let mut squares = Beside::of(&problem, &level, NOISE, &at).unwrap();
     let normal = squares.normal(&at).unwrap();
     assert!((normal.cost - squares.cost(&at).unwrap()).abs() < 1e-6 * normal.cost);
@@ -73,7 +82,16 @@ fn the_descent_is_that_of_the_squares_without_h() {
 /// Reference: the information on all unknowns and all of h by a table of differences, from which h is eliminated.
 #[test]
 fn the_information_is_that_of_a_table_of_differences() {
-    let (problem, level, at) = sample();
+    compare_information(problem());
+}
+
+#[test]
+fn the_information_on_hits_anew_is_that_of_a_table_of_differences() {
+    compare_information(problem_hit_anew());
+}
+
+fn compare_information(problem: Problem) {
+    let (problem, level, at) = sample(problem);
     let squares = Beside::of(&problem, &level, NOISE, &at).unwrap();
     let normal = squares.normal_as_measured(&at).unwrap();
     let count = problem.count();

@@ -4,44 +4,65 @@
 //! tests cannot say them: what is left of the functions moves the interface as a rigid body ([`lack`]). So errors of the
 //! assembly's own hits join, and stay where they explain that.
 
+use std::borrow::Cow;
+
 use bolted_joint_virtual_point::Change;
 use nalgebra::DVector;
 
 use crate::budget::HIT_ANEW;
 use crate::error::SpatialError;
-use crate::estimate::Found;
+use crate::estimate::{Begin, Found};
 use crate::lack;
-use crate::problem::{Problem, Unknowns};
+use crate::normal::Deviations;
+use crate::problem::{Level, Problem, Unknowns};
 use crate::side::Test;
 use crate::study::SpatialStudy;
 
-/// Squares that are left where hits anew explain what was left, in parts of these, at most.
-const EXPLAINED: f64 = 0.5;
+/// Squares over numbers that noise of a stated level explains.
+const EXPLAINED: f64 = 1.2;
 
 impl SpatialStudy {
-    /// With hits of the assembly that may be elsewhere, if something is left out without them.
-    pub(crate) fn hit_anew(&self, found: &Found) -> Result<Option<Self>, SpatialError> {
-        let is_exact = self.noise == [0.0; 2] && found.best.has_converged;
-        let may_be = self.problem.tolerances.is_some() && !self.problem.has_hits_anew();
-        if !(is_exact && may_be) || lack::of(&found.shown, &found.joint.unknowns)? < lack::LACKING {
-            return Ok(None);
+    /// What fits best; with hits of the assembly that are elsewhere, where that explains what nothing else does.
+    pub(crate) fn with_hits(
+        &self,
+        rms: &Deviations,
+    ) -> Result<(Cow<'_, Self>, Found), SpatialError> {
+        let of_all = || self.found(rms, Begin::Searches);
+        if self.problem.tolerances.is_none() || self.problem.has_hits_anew() {
+            return Ok((Cow::Borrowed(self), of_all()?));
         }
-        let mut own = self.clone();
-        own.problem = own.problem.with_hits(Some(HIT_ANEW));
-        own.problem.wider.clear();
-        Ok(Some(own))
+        let first = self.found_at_first(rms)?;
+        if let Some(found) = &first
+            && self.is_explained(found)?
+        {
+            return Ok((Cow::Borrowed(self), first.map_or_else(of_all, Ok)?));
+        }
+        let mut anew = self.clone();
+        anew.problem = anew.problem.with_hits(Some(HIT_ANEW));
+        let with = match &first {
+            Some(found) if found.best.has_converged && !self.has_noise() => {
+                let begun = found.for_hits_anew(&self.problem, &anew.problem);
+                Some(anew.found(rms, Begin::At(begun))?)
+            }
+            _ => anew.found_at_first(rms)?,
+        };
+        match with {
+            Some(with) if anew.is_explained(&with)? => Ok((Cow::Owned(anew), with)),
+            _ => Ok((Cow::Borrowed(self), first.map_or_else(of_all, Ok)?)),
+        }
     }
-}
 
-/// Whether errors of hits explain what was left without them.
-pub(crate) fn explains(before: &Found, after: &Found) -> Result<bool, SpatialError> {
-    let left = |found: &Found| -> Result<f64, SpatialError> {
-        let rms = crate::level::relative_rms(&found.shown, &found.joint.unknowns)?;
-        Ok(rms * rms)
-    };
-    Ok(after.joint.has_converged
-        && left(after)? < EXPLAINED * left(before)?
-        && lack::of(&after.shown, &after.joint.unknowns)? < lack::LACKING)
+    /// Whether noise explains what is left: by its level where that is stated, else by what moves the interface.
+    fn is_explained(&self, found: &Found) -> Result<bool, SpatialError> {
+        let left = found.joint.squares / found.joint.numbers as f64;
+        let by_level = match self.level {
+            Level::Relative(_) => left < EXPLAINED,
+            Level::OfResiduals => true,
+        };
+        let by_motion =
+            self.has_noise() || lack::of(&found.shown, &found.joint.unknowns)? < lack::LACKING;
+        Ok(found.joint.has_converged && by_level && by_motion)
+    }
 }
 
 impl Problem {

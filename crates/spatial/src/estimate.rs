@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use nalgebra::DMatrix;
 
-use crate::anew;
 use crate::contradicted;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit, Squares, covariance};
@@ -16,7 +15,7 @@ use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::richer::{Richer, richer};
-use crate::search::{BY_CHANCE, SEARCHED, searched};
+use crate::search::{BY_CHANCE, Extent, SEARCHED, searched};
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
 
@@ -71,8 +70,16 @@ pub(crate) struct Found {
     pub(crate) loss: Option<Loss>,
 }
 
+/// Where an estimate begins.
+pub(crate) enum Begin {
+    /// Where searches lead.
+    Searches,
+    /// Here.
+    At(Begun),
+}
+
 /// Where an estimate goes on from, and the searches that led there.
-struct Begun {
+pub(crate) struct Begun {
     best: Fit,
     starts: [usize; 2],
 }
@@ -86,7 +93,7 @@ impl Found {
     }
 
     /// With errors of hits that it does not have yet.
-    fn for_hits_anew(&self, before: &Problem, anew: &Problem) -> Begun {
+    pub(crate) fn for_hits_anew(&self, before: &Problem, anew: &Problem) -> Begun {
         Begun {
             best: Fit {
                 unknowns: anew.from_repeated(before, &self.best.unknowns),
@@ -113,18 +120,9 @@ impl SpatialStudy {
             });
         }
         let rms = sizes(problem);
-        let mut found = self.found(&rms, None)?;
-        let mut own = Cow::Borrowed(self);
-        let mut of_hits = None;
-        if let Some(anew) = self.hit_anew(&found)? {
-            let begun = found.for_hits_anew(problem, &anew.problem);
-            let with = anew.found(&rms, Some(begun))?;
-            if anew::explains(&found, &with)? {
-                of_hits = Some(anew.problem.told_anew(&with.best.unknowns));
-                found = with;
-                own = Cow::Owned(anew);
-            }
-        }
+        let (mut own, mut found) = self.with_hits(&rms)?;
+        let of_hits =
+            matches!(own, Cow::Owned(_)).then(|| own.problem.told_anew(&found.best.unknowns));
         let mut result = own.result(&found)?;
         for _ in 0..ROUNDS {
             // what a budget that does not hold draws back draws the joint with it
@@ -133,39 +131,71 @@ impl SpatialStudy {
                 .filter(|_| is_near && result.reasons_against.is_empty());
             let Some(wider) = wider else { break };
             own.to_mut().problem.wider = wider;
-            found = own.found(&rms, Some(found.begun()))?;
+            found = own.found(&rms, Begin::At(found.begun()))?;
             result = own.result(&found)?;
         }
         result.warnings.extend(of_hits);
         Ok(result)
     }
 
-    /// What fits best, by searches or from where they have come to.
-    fn found(&self, rms: &Deviations, begun: Option<Begun>) -> Result<Found, SpatialError> {
-        match self.level {
-            Level::Relative(part) if self.noise != [0.0; 2] => self.beside_noise(rms, part, begun),
-            _ => self.beside_exact(rms, begun),
+    /// Whether the substructures' functions have noise.
+    pub(crate) fn has_noise(&self) -> bool {
+        self.noise != [0.0; 2]
+    }
+
+    /// What fits best.
+    pub(crate) fn found(&self, rms: &Deviations, begin: Begin) -> Result<Found, SpatialError> {
+        let own = match begin {
+            Begin::At(begun) => begun,
+            Begin::Searches => self.begun(rms, Extent::All)?.ok_or(SpatialError::NoStart)?,
+        };
+        self.found_from(rms, own)
+    }
+
+    /// Likewise, where the likely starts come to anything.
+    pub(crate) fn found_at_first(&self, rms: &Deviations) -> Result<Option<Found>, SpatialError> {
+        let begun = self.begun(rms, Extent::First)?;
+        begun.map(|own| self.found_from(rms, own)).transpose()
+    }
+
+    fn begun(&self, rms: &Deviations, extent: Extent) -> Result<Option<Begun>, SpatialError> {
+        let problem = &self.problem;
+        let level = self.first_level(rms);
+        let is_stated = matches!(self.level, Level::Relative(_));
+        let own = match (self.has_noise(), problem.error_count()) {
+            (true, _) => searched_beside(problem, &level, self.noise, extent)?,
+            (false, 0) => {
+                let (found, starts) = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
+                Some((found.on(problem, &level)?, starts))
+            }
+            (false, _) => together(problem, &level, is_stated, extent)?,
+        };
+        Ok(own.map(|(best, starts)| Begun { best, starts }))
+    }
+
+    /// The level of each function's noise, as far as it is known before anything was found.
+    fn first_level(&self, rms: &Deviations) -> Deviations {
+        match (self.level, self.problem.error_count()) {
+            (Level::Relative(part), _) => parts(rms, part),
+            (Level::OfResiduals, 0) => rms.clone(),
+            (Level::OfResiduals, _) => parts(rms, NOISE),
+        }
+    }
+
+    fn found_from(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
+        match self.has_noise() {
+            true => self.beside_noise(rms, begun),
+            false => self.beside_exact(rms, begun),
         }
     }
 
     /// Where the substructures' functions are exact.
-    fn beside_exact(&self, rms: &Deviations, begun: Option<Begun>) -> Result<Found, SpatialError> {
+    fn beside_exact(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let errors = problem.error_count();
-        let mut level: Deviations = match (self.level, errors) {
-            (Level::Relative(part), _) => parts(rms, part),
-            (Level::OfResiduals, 0) => rms.clone(),
-            (Level::OfResiduals, _) => parts(rms, NOISE),
-        };
+        let mut level = self.first_level(rms);
         let is_stated = matches!(self.level, Level::Relative(_));
-        let (mut best, starts) = match (begun, errors) {
-            (Some(Begun { best, starts }), _) => (best, starts),
-            (None, 0) => {
-                let (found, starts) = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
-                (found.on(problem, &level)?, starts)
-            }
-            (None, _) => together(problem, &level, is_stated)?,
-        };
+        let Begun { mut best, starts } = begun;
         let mut estimated = problem.clone();
         if errors > 0 {
             // where nothing was found, there is nothing to be told better
@@ -254,19 +284,11 @@ impl SpatialStudy {
     }
 
     /// Where the substructures' functions have noise.
-    fn beside_noise(
-        &self,
-        rms: &Deviations,
-        part: f64,
-        begun: Option<Begun>,
-    ) -> Result<Found, SpatialError> {
+    fn beside_noise(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
         let problem = &self.problem;
-        let level = parts(rms, part);
+        let level = self.first_level(rms);
         let noise = self.noise;
-        let (best, starts) = match begun {
-            Some(Begun { best, starts }) => (best, starts),
-            None => searched_beside(problem, &level, noise)?,
-        };
+        let Begun { best, starts } = begun;
         let mut has_converged = best.has_converged;
         let mut unknowns = best.unknowns;
         // joint and set-up at more lines

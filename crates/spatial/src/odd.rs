@@ -7,6 +7,7 @@ use num_complex::Complex64;
 
 use crate::assembled::Assembled;
 use crate::error::SpatialError;
+use crate::level::size;
 use crate::parallel::over_lines;
 use crate::problem::{Observed, Problem, Unknowns};
 
@@ -30,7 +31,7 @@ const LEAST: f64 = 1e-3;
 struct Odd {
     place: usize,
     dof: Dof,
-    /// What it leaves over what is usual.
+    /// What it leaves over what is usual, or over its noise where that is more.
     ratio: f64,
 }
 
@@ -39,15 +40,19 @@ struct Compared<'p> {
     problem: &'p Problem,
     /// Function by function, line by line.
     computed: Vec<Vec<Complex64>>,
+    /// Deviation of the noise of each function, as far as it is known.
+    noise: &'p [f64],
 }
 
-/// What does not fit, in words; nothing where the functions are too few to say.
+/// What does not fit, in words; nothing where the functions are too few to say. `noise` is the deviation of each function, 0 where it
+/// is not known: beside a resonance that no line took part of, it is a large part of the others.
 pub(crate) fn odd_channels(
     problem: &Problem,
     unknowns: &Unknowns,
+    noise: &[f64],
 ) -> Result<Vec<String>, SpatialError> {
     let problem = &problem.thinned(LINES);
-    let compared = Compared::of(problem, unknowns)?;
+    let compared = Compared::of(problem, unknowns, noise)?;
     let [a, b] = &problem.sides;
     let dofs: [Vec<Dof>; 2] = [
         a.responses.iter().chain(&b.responses).copied().collect(),
@@ -60,7 +65,11 @@ pub(crate) fn odd_channels(
 }
 
 impl<'p> Compared<'p> {
-    fn of(problem: &'p Problem, unknowns: &Unknowns) -> Result<Self, SpatialError> {
+    fn of(
+        problem: &'p Problem,
+        unknowns: &Unknowns,
+        noise: &'p [f64],
+    ) -> Result<Self, SpatialError> {
         let assembled = Assembled::new(problem, unknowns)?;
         let lines: Vec<Vec<Complex64>> = over_lines(problem.frequency_hz.len(), |lines| {
             lines
@@ -74,6 +83,7 @@ impl<'p> Compared<'p> {
             computed: functions
                 .map(|n| lines.iter().map(|line| line[n]).collect())
                 .collect(),
+            noise,
         })
     }
 
@@ -108,6 +118,12 @@ impl<'p> Compared<'p> {
         )
     }
 
+    /// What noise leaves in the median of its functions.
+    fn noise_of(&self, role: Role, place: usize) -> f64 {
+        let of = |n: usize| self.noise[n] / size(&self.computed[n]).max(f64::MIN_POSITIVE);
+        median(self.functions(role, place).map(of).collect()).unwrap_or(0.0)
+    }
+
     fn told(&self, role: Role, dofs: &[Dof]) -> Vec<String> {
         let all = dofs.iter().enumerate().filter_map(|(place, &dof)| {
             let is_enough = self.functions(role, place).nth(FEWEST - 1).is_some();
@@ -122,12 +138,12 @@ impl<'p> Compared<'p> {
         let usual = usual.max(LEAST / ODD);
         let odd: Vec<Odd> = all
             .iter()
-            .filter(|(_, _, left)| *left > ODD * usual)
             .map(|&(place, dof, left)| Odd {
                 place,
                 dof,
-                ratio: left / usual,
+                ratio: left / usual.max(self.noise_of(role, place)),
             })
+            .filter(|own| own.ratio > ODD)
             .collect();
         if odd.len() as f64 > MOST * all.len() as f64 {
             return Vec::new();

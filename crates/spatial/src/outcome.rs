@@ -8,7 +8,7 @@ use crate::estimate::Found;
 use crate::fits::strongest;
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::lack;
-use crate::level::relative_rms;
+use crate::level::{relative_rms, sizes};
 use crate::lossy::Loss;
 use crate::normal::squares_of_errors;
 use crate::numbers::{Numbers, deviations};
@@ -107,7 +107,7 @@ impl SpatialStudy {
         };
         // beside a joint that is another one, none goes with the others
         if result.relative_rms < LARGEST_RESIDUAL {
-            result.warnings = odd_channels(&compared, &alone.unknowns)?;
+            result.warnings = odd_channels(&compared, &alone.unknowns, &self.noise_of_functions())?;
         }
         if best.has_converged && result.substructures.is_none() {
             let of_rest = lack::warning(&compared, &alone.unknowns)?;
@@ -140,6 +140,18 @@ impl SpatialStudy {
             .and_then(|richer| richer.reason(found, &result.deviations));
         result.reasons_against.extend(of_model);
         Ok(result)
+    }
+}
+
+impl SpatialStudy {
+    /// Deviation of the noise of each function, 0 where it is not stated.
+    fn noise_of_functions(&self) -> Vec<f64> {
+        let sizes = sizes(&self.problem).into_iter();
+        let part = match self.level {
+            Level::Relative(part) => part,
+            Level::OfResiduals => 0.0,
+        };
+        sizes.map(|size| part * size).collect()
     }
 }
 

@@ -25,6 +25,15 @@ const HOPELESS: f64 = 0.2;
 /// Searches that crept far above what noise explains and are followed to the end, the lowest ones, where none was better.
 const FOLLOWED: usize = 3;
 
+/// How many starts are followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// The likely ones: where they come to nothing, something else may be wrong.
+    First,
+    /// As many as it takes.
+    All,
+}
+
 /// The lowest of the searches, how many starts were tried and how many came as low. The others are not tried after one that noise
 /// explains, where its level is stated, or, where it is not, after two that agree or one that leaves nothing. Where noise does not
 /// explain the lowest, most of those that were followed to the end have to lead there: it may be another minimum.

@@ -9,7 +9,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{BY_CHANCE, NOTHING};
+use crate::search::{BY_CHANCE, Extent, NOTHING};
 use crate::starts::starts;
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
@@ -49,12 +49,14 @@ const MOST_CHECKED: usize = 6;
 
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, and how many came to the same
 /// minimum. None follows one that noise explains at all these lines, where its level is stated, one that leaves nothing, or two that
-/// agree: on what noise explains at the lines of the searches, or is not far above it.
+/// agree: on what noise explains at the lines of the searches, or is not far above it. `None` where the likely starts alone were to be
+/// followed, and came to nothing.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
     is_stated: bool,
-) -> Result<(Fit, [usize; 2]), SpatialError> {
+    extent: Extent,
+) -> Result<Option<(Fit, [usize; 2])>, SpatialError> {
     let lines = problem.thinned(LINES_MAX);
     let likely = problem.likely_errors()?;
     let mut searches = Searches::new(problem, &likely, level, is_stated)?;
@@ -70,6 +72,9 @@ pub(crate) fn together(
     });
     let mut tries = tries.map(|kinds| kinds.into_iter().flatten());
     if !searches.follow(tries.by_ref().take(AT_FIRST).flatten()) {
+        if extent == Extent::First {
+            return Ok(None);
+        }
         // where the joint is wrong, the errors of the set-up need not be
         let again = match &searches.best {
             Some(best) => searches.beside(&searches.thin.errors(&best.unknowns))?,
@@ -87,7 +92,7 @@ pub(crate) fn together(
     let agreeing = searches.agreeing();
     if let Some(mut fit) = searches.lowest_checked() {
         fit.has_converged &= is_confirmed && !searches.is_rigid(&fit);
-        return Ok((fit, [searches.tried, agreeing]));
+        return Ok(Some((fit, [searches.tried, agreeing])));
     }
     let best = searches.best.take().ok_or(SpatialError::NoStart)?;
     // what nothing explains has no bottom that is worth the way there
@@ -98,7 +103,7 @@ pub(crate) fn together(
     let mut fit = Fit::of(&lines, best.unknowns, level, effort)?;
     // more lines may lead where a motion gets lost
     fit.has_converged &= is_confirmed && !(is_stated && searches.is_rigid(&fit));
-    Ok((fit, [searches.tried, agreeing]))
+    Ok(Some((fit, [searches.tried, agreeing])))
 }
 
 /// Along curves on which the functions are nearly straight, or straight on: each finds what the other one misses.

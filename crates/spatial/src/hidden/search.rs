@@ -6,7 +6,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{BY_CHANCE, SEARCHED};
+use crate::search::{BY_CHANCE, Extent, SEARCHED};
 use crate::starts::starts;
 use crate::together::LINES_MAX;
 
@@ -39,12 +39,14 @@ const LOW_MIN: usize = LINES;
 /// noise and budget explain as chance has it, or after two that agree on what is not far above.
 ///
 /// A soft joint is seen at low frequencies alone: above, what all lines say of it is the noise of the substructures. So where the
-/// first searches come to nothing, low frequencies are searched by themselves, and all from where these lead.
+/// first searches come to nothing, low frequencies are searched by themselves, and all from where these lead. `None` where the likely
+/// starts alone were to be followed, and came to nothing.
 pub(crate) fn searched_beside(
     problem: &Problem,
     level: &Deviations,
     noise: [f64; 2],
-) -> Result<(Fit, [usize; 2]), SpatialError> {
+    extent: Extent,
+) -> Result<Option<(Fit, [usize; 2])>, SpatialError> {
     let given = Given {
         problem,
         level,
@@ -59,10 +61,13 @@ pub(crate) fn searched_beside(
         let of_low = given.low();
         let mut of_low = of_low.iter().filter_map(Low::found);
         if !of_low.any(|found| searches.holds(found)) {
+            if extent == Extent::First {
+                return Ok(None);
+            }
             searches.follow(starts);
         }
     }
-    searches.ended()
+    searches.ended().map(Some)
 }
 
 /// What is searched.

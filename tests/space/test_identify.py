@@ -284,12 +284,7 @@ def test_a_hit_beside_its_place_is_estimated_as_unknown(run, tmp_path, off_mm):
     assert warning.startswith("a.impacts[4] is not where") and "moved along y by" in warning, warning
     found, deviation = warning.split("moved along y by ")[1].split(" mm")[0].split(" ± ")
     assert abs(float(found) - off_mm) < 2 * float(deviation) < 1.0, warning
-    joint = json.loads((tmp_path / "j.joint.json").read_text())
-    deviation = joint["uncertainty"]["standard_deviation"]
-    errors = [
-        (np.array(joint["joint"][name]) - truth) / np.array(deviation[name])
-        for name, truth in (("stiffness", K), ("damping", C))
-    ]
+    errors = in_deviations(json.loads((tmp_path / "j.joint.json").read_text()))
     assert np.sqrt(np.mean(np.square(errors))) < 1.3 and np.abs(errors).max() < 4
 
 
@@ -308,29 +303,66 @@ def test_damping_that_does_not_grow_with_the_frequency_is_told(program, tmp_path
         assert "check signs" not in done.stderr
 
 
-@pytest.mark.parametrize("scatter_m, is_told", [(3e-4, True), (0.0, False)])
-def test_hits_beside_those_of_the_parts_are_told(run, tmp_path, scatter_m, is_told):
-    """Hit anew in the assembly: what is left moves the interface as a rigid body, which noise does not."""
+def with_other_assembly(rig, folder, rows, other, rows_of_other, noise, rng):
+    """The assembly's functions are those of another rig or of other rows; noise in parts of each function's r.m.s., not stated."""
+    more = "budget = { position = 1e-3, rotation = 1e-2, gain = 1e-2 }\n"
+    (folder / "again").mkdir()
+    other.write(folder / "again", FREQUENCIES[::2], rows=rows_of_other)
+    rig.write(folder, FREQUENCIES[::2], rows=rows, more=more)
+    held = dict(np.load(folder / "again" / "c.npz"))
+    size = np.sqrt(np.mean(np.abs(held["frf"]) ** 2, axis=2, keepdims=True))
+    own = rng.normal(size=held["frf"].shape) + 1j * rng.normal(size=held["frf"].shape)
+    held["frf"] = held["frf"] + noise * size * own / np.sqrt(2)
+    np.savez(folder / "c.npz", **held)
+
+
+def in_deviations(joint):
+    deviation = joint["uncertainty"]["standard_deviation"]
+    pairs = (("stiffness", K), ("damping", C))
+    return np.concatenate([((np.array(joint["joint"][name]) - truth) / np.array(deviation[name]))[UPPER] for name, truth in pairs])
+
+
+@pytest.mark.parametrize("scatter_m, stated, is_told", [(0.0, "", False), (3e-4, "", True), (3e-4, "hits = { position = 3e-4, rotation = 5e-3 }", False)])
+def test_hits_of_the_assembly_may_be_elsewhere(run, tmp_path, scatter_m, stated, is_told):
+    """Hit anew: told with the scatter where the budget does not have it, and the joint is in its intervals."""
     rig, rng = Rig(K, C), np.random.default_rng(10)
     rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
-    more = "budget = { position = 1e-3, rotation = 1e-2, gain = 1e-2 }\n"
-    rig.write(tmp_path, FREQUENCIES[::2], rows=rows, more=more)
-    if scatter_m:
-        stated = [tuple(part.copy() for part in side) for side in rig.sides]
-        for _, hits, _ in rig.sides:
-            hits += rng.normal(size=hits.shape) * scatter_m
-        again = [(u, rig.rows(side)[1]) for side, (u, _) in enumerate(rows)]
-        rig.sides = stated
-        (tmp_path / "again").mkdir()
-        rig.write(tmp_path / "again", FREQUENCIES[::2], rows=again)
-        (tmp_path / "again" / "c.npz").replace(tmp_path / "c.npz")
-    held = dict(np.load(tmp_path / "c.npz"))
-    size = np.sqrt(np.mean(np.abs(held["frf"]) ** 2, axis=2, keepdims=True))
-    noise = rng.normal(size=held["frf"].shape) + 1j * rng.normal(size=held["frf"].shape)
-    held["frf"] = held["frf"] + 0.003 * size * noise
-    np.savez(tmp_path / "c.npz", **held)
-    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json").stderr
-    assert ("what is left is no noise" in told) == is_told, told
+    again = []
+    for side, (u, f) in enumerate(rows):
+        _, hits, directions = rig.sides[side]
+        moved, turned = rng.normal(size=hits.shape) * scatter_m, rng.normal(size=hits.shape) * 15 * scatter_m
+        more = [row(p + by, d + np.cross(angle, d)) - row(p, d) for p, d, by, angle in zip(hits, directions, moved, turned)]
+        again.append((u, f + np.array(more)))
+    with_other_assembly(rig, tmp_path, rows, rig, again, 0.003, rng)
+    study = tmp_path / "study.toml"
+    study.write_text(study.read_text().replace("gain = 1e-2 }", "gain = 1e-2, " + stated + " }" if stated else "gain = 1e-2 }"))
+    found = identified(run, tmp_path)
+    told = [own for own in found["warnings"] if "hits of the assembly are not where" in own]
+    assert len(told) == is_told and not any("what is left is no noise" in own for own in found["warnings"]), found["warnings"]
+    if is_told:
+        assert abs(float(told[0].split("by ")[1].split(" mm")[0]) / (1e3 * scatter_m) - 1) < 0.25, told
+    errors = in_deviations(found["joint_file"])
+    assert 0.5 < np.sqrt(np.mean(np.square(errors))) < 1.35 and np.abs(errors).max() < 4
+
+
+@pytest.mark.parametrize("side, grams", [(0, 5.0), (1, 2.0), (0, 0.0)])
+def test_a_mass_that_the_assembly_alone_has_is_told(program, tmp_path, side, grams):
+    """A bolt that neither structure had in its own test: told with its mass, on the side that has it."""
+    rig, rng = Rig(K, C), np.random.default_rng(12)
+    rows = [rig.rows(n, (rng, 1e-4, 1e-3, 1e-3)) for n in range(2)]
+    heavier = Rig(K, C)
+    own = (heavier.a, heavier.b)[side]
+    for dof in range(heavier.at[side], heavier.at[side] + 3):
+        own.M[dof, dof] += 1e-3 * grams
+    with_other_assembly(rig, tmp_path, rows, heavier, rows, 0.003, rng)
+    command = [program, "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    told = [own for own in json.loads(done.stdout)["warnings"] if "at the joint, in the assembly alone" in own]
+    assert len(told) == (grams > 0), done.stderr
+    for warning in told:
+        value, deviation = warning.split("a mass of ")[1].split(" g")[0].split(" ± ")
+        assert abs(float(value) - grams) < 0.05 * grams + 0.06 and float(deviation) < 0.2, warning
+        assert f"on {'ab'[side]} at the joint" in warning
 
 
 @pytest.mark.long

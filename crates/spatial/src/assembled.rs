@@ -1,6 +1,6 @@
 //! The functions that an assembly with joints would have, and how they change with every unknown.
 
-use bolted_joint_space::{Coupled, SpaceError};
+use bolted_joint_space::{Coupled, Dof, SpaceError};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -266,6 +266,35 @@ impl<'p> Assembled<'p> {
             groups.extend(of_hits);
         }
         groups
+    }
+
+    /// What a mass at a side's end of the joint does to the observed functions: ω² Y_C,m u of its translations.
+    pub(crate) fn by_mass(&self, side: usize, line: usize, at: &Line) -> DVector<Complex64> {
+        let own = &self.transformations[side];
+        let functions = self.measured(line);
+        let by_loads = self.by_loads_of(side, functions, &(&at.by_joint_loads * &at.dynamic));
+        let by_loads = by_loads * &own.loads;
+        // the interface in the assembly: T_u Y R
+        let sign = Complex64::from([-1.0, 1.0][side]);
+        let first = [0, self.problem.skips()[1]][side];
+        let loads = &at.dynamic * &at.joint_motions * sign;
+        let alone = &own.motions * functions[side];
+        let mut motions = &alone * &own.loads * loads;
+        let mut by_own = motions.columns_mut(first, alone.ncols());
+        by_own += &alone;
+        if let Some(struck) = &own.struck {
+            by_own += &alone * &own.loads * struck;
+        }
+        let inertia = Complex64::from(self.problem.omega(line).powi(2));
+        let observed = self.problem.observed.iter();
+        let of = observed.map(|one| {
+            let [o, i] = one.at;
+            let translations = Dof::ALL.iter().filter(|dof| !dof.is_rotation());
+            let moved =
+                translations.map(|dof| by_loads[(o, dof.index())] * motions[(dof.index(), i)]);
+            inertia * moved.sum::<Complex64>()
+        });
+        DVector::from_iterator(self.problem.observed.len(), of)
     }
 
     /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.

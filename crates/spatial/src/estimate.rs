@@ -7,10 +7,10 @@ use nalgebra::DMatrix;
 use crate::contradicted;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit, Squares, covariance};
+use crate::further::{Further, Score, scores};
 use crate::hidden::{self, Beside, searched_beside};
 use crate::identification::SpatialIdentification;
 use crate::level::{of_residuals, sizes};
-use crate::lossy::{Loss, loss};
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
 use crate::problem::{Level, Problem, Unknowns};
@@ -66,8 +66,8 @@ pub(crate) struct Found {
     pub(crate) starts: [usize; 2],
     /// That the joint is not what its model says.
     pub(crate) richer: Option<Richer>,
-    /// That its damping is not viscous.
-    pub(crate) loss: Option<Loss>,
+    /// What further numbers would explain; of none where nothing is known of that.
+    pub(crate) further: Vec<(Further, Score)>,
 }
 
 /// Where an estimate begins.
@@ -228,13 +228,13 @@ impl SpatialStudy {
         let richer = richer(&estimated, &best.unknowns, |problem, unknowns| {
             Normal::of(problem, unknowns, &level)
         })?;
-        let loss = match best.has_converged {
-            true => loss(&estimated, &best.unknowns, &level)?,
-            false => None,
+        let further = match best.has_converged {
+            true => scores(&estimated, &best.unknowns, &level)?,
+            false => Vec::new(),
         };
         Ok(Found {
             richer,
-            loss,
+            further,
             joint: Refined {
                 covariance: covariance(&normal.information)
                     .ok_or_else(|| undetermined(best.has_converged, starts))?,
@@ -348,7 +348,7 @@ impl SpatialStudy {
             shown,
             starts,
             richer,
-            loss: None,
+            further: Vec::new(),
         })
     }
 }

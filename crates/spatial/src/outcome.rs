@@ -9,7 +9,8 @@ use crate::fits::strongest;
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::lack;
 use crate::level::{relative_rms, sizes};
-use crate::lossy::Loss;
+use crate::lossy;
+use crate::massive;
 use crate::normal::squares_of_errors;
 use crate::numbers::{Numbers, deviations};
 use crate::odd::odd_channels;
@@ -45,7 +46,7 @@ impl SpatialStudy {
             joint: alone,
             starts,
             richer,
-            loss,
+            further,
         } = found;
         let spread = Spread::of(estimated, information, alone.covariance.clone())
             .ok_or(SpatialError::NotDetermined)?;
@@ -116,11 +117,12 @@ impl SpatialStudy {
         let of_budget = contradicted::warnings(problem, &result.errors);
         result.warnings.extend(of_budget);
         result.warnings.extend(richer.iter().map(Richer::warning));
-        result.warnings.extend(loss.iter().map(Loss::warning));
+        result.warnings.extend(lossy::warning(further));
+        result.warnings.extend(massive::warning(further));
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
-        let of_energy = match loss {
-            Some(_) => reasons::of_lossy_energy(squares_from_free, count),
-            None => reasons::of_energy(squares_from_free, count),
+        let of_energy = match lossy::is_lossy(further) {
+            true => reasons::of_lossy_energy(squares_from_free, count),
+            false => reasons::of_energy(squares_from_free, count),
         };
         result.reasons_against.extend(of_energy);
         if result.substructures.is_none() && !result.reasons_against.is_empty() {
@@ -139,6 +141,8 @@ impl SpatialStudy {
             .as_ref()
             .and_then(|richer| richer.reason(found, &result.deviations));
         result.reasons_against.extend(of_model);
+        let of_mass = massive::reason(further, &result.unknowns);
+        result.reasons_against.extend(of_mass);
         Ok(result)
     }
 }

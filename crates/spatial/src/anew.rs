@@ -15,6 +15,7 @@ use crate::estimate::{Begin, Found};
 use crate::lack;
 use crate::normal::Deviations;
 use crate::problem::{Level, Problem, Unknowns};
+use crate::search::Extent;
 use crate::side::Test;
 use crate::study::SpatialStudy;
 
@@ -23,12 +24,20 @@ const EXPLAINED: f64 = 1.2;
 
 impl SpatialStudy {
     /// What fits best; with hits of the assembly that are elsewhere, where that explains what nothing else does.
+    ///
+    /// Not all starts are followed where a place is known not to fit: it has to be mended first.
     pub(crate) fn with_hits(
         &self,
         rms: &Deviations,
+        is_known_not_to_fit: bool,
     ) -> Result<(Cow<'_, Self>, Found), SpatialError> {
-        let of_all = || self.found(rms, Begin::Searches);
-        if self.problem.tolerances.is_none() || self.problem.has_hits_anew() {
+        let extent = match is_known_not_to_fit {
+            true => Extent::Likely,
+            false => Extent::All,
+        };
+        let of_all = || self.found(rms, Begin::Searches(extent));
+        let may_be = self.problem.tolerances.is_some() && !self.problem.has_hits_anew();
+        if !may_be || is_known_not_to_fit {
             return Ok((Cow::Borrowed(self), of_all()?));
         }
         let first = self.found_at_first(rms)?;
@@ -42,12 +51,13 @@ impl SpatialStudy {
         let with = match &first {
             Some(found) if found.best.has_converged && !self.has_noise() => {
                 let begun = found.for_hits_anew(&self.problem, &anew.problem);
-                Some(anew.found(rms, Begin::At(begun))?)
+                anew.found(rms, Begin::At(begun)).map(Some)
             }
-            _ => anew.found_at_first(rms)?,
+            _ => anew.found_at_first(rms),
         };
+        // what fails with them says nothing of what is found without
         match with {
-            Some(with) if anew.is_explained(&with)? => Ok((Cow::Owned(anew), with)),
+            Ok(Some(with)) if anew.is_explained(&with)? => Ok((Cow::Owned(anew), with)),
             _ => Ok((Cow::Borrowed(self), first.map_or_else(of_all, Ok)?)),
         }
     }

@@ -11,6 +11,7 @@ use crate::further::{Further, Score, scores};
 use crate::hidden::{self, Beside, searched_beside};
 use crate::identification::SpatialIdentification;
 use crate::level::{of_residuals, sizes};
+use crate::misfits::Misfit;
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
 use crate::problem::{Level, Problem, Unknowns};
@@ -73,7 +74,7 @@ pub(crate) struct Found {
 /// Where an estimate begins.
 pub(crate) enum Begin {
     /// Where searches lead.
-    Searches,
+    Searches(Extent),
     /// Here.
     At(Begun),
 }
@@ -105,11 +106,11 @@ impl Found {
 }
 
 impl SpatialStudy {
-    /// The joint.
+    /// The joint. Beside places that do not fit, as [`Self::misfits`] tells them, the likely starts alone are followed.
     ///
     /// # Errors
     /// [`SpatialError`] where the functions do not determine one.
-    pub fn identify(&self) -> Result<SpatialIdentification, SpatialError> {
+    pub fn identify(&self, misfits: &[Misfit]) -> Result<SpatialIdentification, SpatialError> {
         let problem = &self.problem;
         let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
         if problem.numbers() <= problem.joint_count() {
@@ -120,7 +121,7 @@ impl SpatialStudy {
             });
         }
         let rms = sizes(problem);
-        let (mut own, mut found) = self.with_hits(&rms)?;
+        let (mut own, mut found) = self.with_hits(&rms, !misfits.is_empty())?;
         let of_hits =
             matches!(own, Cow::Owned(_)).then(|| own.problem.told_anew(&found.best.unknowns));
         let mut result = own.result(&found)?;
@@ -147,7 +148,7 @@ impl SpatialStudy {
     pub(crate) fn found(&self, rms: &Deviations, begin: Begin) -> Result<Found, SpatialError> {
         let own = match begin {
             Begin::At(begun) => begun,
-            Begin::Searches => self.begun(rms, Extent::All)?.ok_or(SpatialError::NoStart)?,
+            Begin::Searches(extent) => self.begun(rms, extent)?.ok_or(SpatialError::NoStart)?,
         };
         self.found_from(rms, own)
     }

@@ -30,6 +30,8 @@ const FOLLOWED: usize = 3;
 pub(crate) enum Extent {
     /// The likely ones: where they come to nothing, something else may be wrong.
     First,
+    /// The likely ones: where they come to nothing, what came of them is told.
+    Likely,
     /// As many as it takes.
     All,
 }

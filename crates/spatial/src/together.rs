@@ -75,14 +75,16 @@ pub(crate) fn together(
         if extent == Extent::First {
             return Ok(None);
         }
+        let is_all = extent == Extent::All;
         // where the joint is wrong, the errors of the set-up need not be
         let again = match &searches.best {
-            Some(best) => searches.beside(&searches.thin.errors(&best.unknowns))?,
-            None => Vec::new(),
+            Some(best) if is_all => searches.beside(&searches.thin.errors(&best.unknowns))?,
+            _ => Vec::new(),
         };
         let again = again.into_iter().take(AT_FIRST);
         let again = again.flat_map(|start| [(Way::Straight, start.clone()), (Way::Curved, start)]);
-        let _ = searches.follow(again)
+        let _ = !is_all
+            || searches.follow(again)
             || searches.ends_within_noise()
             || searches.is_hopeless()
             || searches.follow(tries.flatten());

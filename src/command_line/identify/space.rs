@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
     let consistency = study.consistency()?;
     let progress = Progress::new("identifying", 0);
-    let mut found = study.identify()?;
+    let mut found = study.identify(&misfits)?;
     drop(progress);
     warn(&found.warnings);
     // told before the search; a report has them too

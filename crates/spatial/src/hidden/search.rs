@@ -61,10 +61,13 @@ pub(crate) fn searched_beside(
         let of_low = given.low();
         let mut of_low = of_low.iter().filter_map(Low::found);
         if !of_low.any(|found| searches.holds(found)) {
-            if extent == Extent::First {
-                return Ok(None);
+            match extent {
+                Extent::First => return Ok(None),
+                Extent::Likely => {}
+                Extent::All => {
+                    searches.follow(starts);
+                }
             }
-            searches.follow(starts);
         }
     }
     searches.ended().map(Some)

@@ -1,0 +1,140 @@
+//! How the assembly's functions change with its unknowns: with the joint, with errors of the set-up, and with a mass at the joint.
+
+use bolted_joint_space::Dof;
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use super::{Assembled, Line};
+use crate::dyads::Group;
+use crate::patterns::{Patterns, Places};
+
+impl Assembled<'_> {
+    /// L Y with L = I − a D S: what all rows do by the references of a side, whose hits are those of its own test. `left` is a D.
+    pub(super) fn by_loads_of(
+        &self,
+        side: usize,
+        functions: [&DMatrix<Complex64>; 2],
+        left: &DMatrix<Complex64>,
+    ) -> DMatrix<Complex64> {
+        let sign = Complex64::from([-1.0, 1.0][side]);
+        let first_row = [0, self.problem.skips()[0]][side];
+        let mut by_rows = left * &self.transformations[side].motions * sign;
+        for r in 0..functions[side].nrows() {
+            by_rows[(first_row + r, r)] += 1.0;
+        }
+        by_rows * functions[side]
+    }
+
+    /// What changes of the unknowns do to the functions: of each joint that is sought, then of the sensors, of the impacts and of the
+    /// assembly's impacts of each side, where their places may be wrong. [`Patterns`] says how the unknowns are made of them.
+    pub(crate) fn dyads(&self, line: usize, at: &Line) -> Vec<Group> {
+        let mut groups = at.dyads(self.problem);
+        if self.problem.tolerances.is_none() {
+            return groups;
+        }
+        // dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b: each error of a set-up changes what the interface does alone, and of L and
+        // R its rows and columns count
+        let (left, right) = (
+            &at.by_joint_loads * &at.dynamic,
+            &at.dynamic * &at.joint_motions,
+        );
+        for (side, own) in self.transformations.iter().enumerate() {
+            let sign = Complex64::from([-1.0, 1.0][side]);
+            let first_column = [0, self.problem.skips()[1]][side];
+            let functions = &self.problem.sides[side].lines[line];
+            let q = functions.ncols();
+            // loads across the interface for each column of the assembly, with those of hits that are elsewhere
+            let mut right = &right * sign;
+            if let Some(struck) = &own.struck {
+                let mut own_right = right.columns_mut(first_column, q);
+                own_right += struck;
+            }
+            let references = |factor: &DMatrix<Complex64>| {
+                let mut all = factor.clone();
+                for j in 0..q {
+                    all[(j, first_column + j)] += 1.0;
+                }
+                all
+            };
+            // Y R: what the columns of this side come to, for each column of the assembly
+            groups.push(Group {
+                left: &left * sign,
+                right: functions * references(&(&own.loads * &right)),
+            });
+            // L Y likewise
+            let by_loads = self.by_loads_of(side, self.measured(line), &left);
+            let of_hits = (!own.struck_changes.is_empty()).then(|| Group {
+                left: &by_loads * &own.loads,
+                right: references(&DMatrix::zeros(q, right.ncols())),
+            });
+            groups.push(Group {
+                left: by_loads,
+                right,
+            });
+            groups.extend(of_hits);
+        }
+        groups
+    }
+
+    /// What a mass at a side's end of the joint does to the observed functions: ω² Y_C,m u of its translations.
+    pub(crate) fn by_mass(&self, side: usize, line: usize, at: &Line) -> DVector<Complex64> {
+        let own = &self.transformations[side];
+        let functions = self.measured(line);
+        let by_loads = self.by_loads_of(side, functions, &(&at.by_joint_loads * &at.dynamic));
+        let by_loads = by_loads * &own.loads;
+        // the interface in the assembly: T_u Y R
+        let sign = Complex64::from([-1.0, 1.0][side]);
+        let first = [0, self.problem.skips()[1]][side];
+        let loads = &at.dynamic * &at.joint_motions * sign;
+        let alone = &own.motions * functions[side];
+        let mut motions = &alone * &own.loads * loads;
+        let mut by_own = motions.columns_mut(first, alone.ncols());
+        by_own += &alone;
+        if let Some(struck) = &own.struck {
+            by_own += &alone * &own.loads * struck;
+        }
+        let inertia = Complex64::from(self.problem.omega(line).powi(2));
+        let observed = self.problem.observed.iter();
+        let of = observed.map(|one| {
+            let [o, i] = one.at;
+            let translations = Dof::ALL.iter().filter(|dof| !dof.is_rotation());
+            let moved =
+                translations.map(|dof| by_loads[(o, dof.index())] * motions[(dof.index(), i)]);
+            inertia * moved.sum::<Complex64>()
+        });
+        DVector::from_iterator(self.problem.observed.len(), of)
+    }
+
+    /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.
+    pub(crate) fn changes(&self) -> impl Iterator<Item = &[DMatrix<Complex64>]> {
+        let sides = self.transformations.iter();
+        sides.flat_map(|own| {
+            let of_hits = Some(&own.struck_changes[..]).filter(|own| !own.is_empty());
+            let of_all = [&own.motions_changes[..], &own.loads_changes[..]];
+            of_all.into_iter().chain(of_hits)
+        })
+    }
+
+    /// Derivatives of the observed functions by each unknown: observed × unknowns.
+    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
+        let observed = &self.problem.observed;
+        let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
+        let j_omega = Complex64::new(0.0, self.problem.omega(line));
+        let groups = self.dyads(line, at);
+        let patterns = Patterns::of(self.problem, Some(self));
+        for (unknowns, pattern) in patterns.all() {
+            for (row, one) in observed.iter().enumerate() {
+                let sum = pattern.of(&groups, one.at);
+                match unknowns {
+                    // ∂Y_C = −a ∂D b
+                    Places::OfJoint([stiffness, damping]) => {
+                        derivatives[(row, stiffness)] = -sum;
+                        derivatives[(row, damping)] = -j_omega * sum;
+                    }
+                    Places::OfSetUp(place) => derivatives[(row, place)] = sum,
+                }
+            }
+        }
+        derivatives
+    }
+}

@@ -31,7 +31,14 @@ def bolt(k=2e7, z=5e7, t=6e3, r=9e3, c=1e5):
     return stiffness, 2e-5 * stiffness
 
 
-@pytest.mark.parametrize("budget", [EXACT, "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"])
+@pytest.mark.parametrize(
+    "budget",
+    [
+        EXACT,
+        "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n",
+        "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3, hits = { position = 1e-4, rotation = 1e-3 } }\n",
+    ],
+)
 def test_the_plan_is_what_the_estimate_says_of_itself(run, tmp_path, budget):
     """All 42 deviations, with noise so low that the estimate is at the truth."""
     rig = Rig(K, C, sensors=3, impacts=9)
@@ -42,7 +49,7 @@ def test_the_plan_is_what_the_estimate_says_of_itself(run, tmp_path, budget):
     assert plan["functions"] == 18 * 18 and plan["lines"] == len(lines) and plan["additions"] == []
     for one, other in zip(plan["unknowns"], found(run, tmp_path)):
         assert one["name"] == other["name"]
-        assert one["standard_deviation"] == pytest.approx(other["standard_deviation"], rel=0.02)
+        assert one["standard_deviation"] == pytest.approx(other["standard_deviation"], rel=0.04 if "hits" in budget else 0.02)
         assert one["by_noise_alone"] == pytest.approx(other["by_noise_alone"], rel=0.02)
 
 

@@ -53,11 +53,11 @@ impl Reader<'_> {
             }
             BudgetTable::Deviations(own) => *own,
         };
-        for Deviation(value) in [position, hits.and_then(|own| own.position)]
-            .into_iter()
-            .flatten()
-        {
-            self.ensure_smaller_than_rig(value, parts)?;
+        let of_hits = hits.and_then(|own| own.position);
+        for (key, given) in [("position", position), ("hits.position", of_hits)] {
+            if let Some(Deviation(value)) = given {
+                self.ensure_smaller_than_rig(key, value, parts)?;
+            }
         }
         let typical = Tolerance::TYPICAL;
         let own = Tolerance {
@@ -102,12 +102,17 @@ impl Reader<'_> {
     }
 
     /// Positions that are off by as much as the rig measures are in another unit.
-    fn ensure_smaller_than_rig(&self, position_m: f64, parts: &[Part]) -> Result<(), StudyError> {
+    fn ensure_smaller_than_rig(
+        &self,
+        key: &str,
+        position_m: f64,
+        parts: &[Part],
+    ) -> Result<(), StudyError> {
         let interfaces = parts.iter().flat_map(|part| &part.interfaces);
         let size_m = interfaces.map(PartInterface::size_m).fold(0.0, f64::max);
         self.study.ensure(
             size_m == 0.0 || position_m <= MOST_OF_RIG * size_m,
-            "budget.position",
+            format_args!("budget.{key}"),
             position_m,
             format_args!(
                 "a standard deviation in m that is small beside the {size_m:.3} m from one sensor or impact of an interface to \

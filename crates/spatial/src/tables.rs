@@ -326,7 +326,7 @@ pub(crate) struct DeviationsTable {
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table with position and rotation")]
 pub(crate) struct HitsTable {
     /// m.
     pub(crate) position: Option<Deviation>,

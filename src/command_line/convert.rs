@@ -7,7 +7,9 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use bolted_joint::assembly::AssemblyModel;
-use bolted_joint::convert::{Converted, Options, Target, convert, convert_assembly, identifier};
+use bolted_joint::convert::{
+    Converted, Options, Target, Units, convert, convert_assembly, identifier,
+};
 use bolted_joint::joint::JointFile;
 use bolted_joint::show::FileKind;
 use bolted_joint::study::StudyText;
@@ -43,6 +45,9 @@ pub(super) struct ConvertArguments {
     /// Take the joint of small motion about rest: sliders stick, terms of higher order vanish
     #[arg(long)]
     at_rest: bool,
+    /// Units of the numbers, for programs of finite elements [default: si]
+    #[arg(long, value_enum, value_name = "UNITS")]
+    units: Option<UnitsArgument>,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,
@@ -62,6 +67,23 @@ enum TargetArgument {
     Matlab,
     /// A package without libraries
     Modelica,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum UnitsArgument {
+    /// N, m, kg, s
+    Si,
+    /// N, mm, t, s
+    Mm,
+}
+
+impl From<UnitsArgument> for Units {
+    fn from(argument: UnitsArgument) -> Self {
+        match argument {
+            UnitsArgument::Si => Self::Si,
+            UnitsArgument::Mm => Self::Millimetres,
+        }
+    }
 }
 
 impl From<TargetArgument> for Target {
@@ -169,6 +191,7 @@ fn options(arguments: &ConvertArguments, name: &str) -> Result<Options, CliError
         )?,
         first_number: arguments.first_number.unwrap_or(FIRST_NUMBER),
         at_rest: arguments.at_rest,
+        units: arguments.units.map(Units::from).unwrap_or_default(),
     })
 }
 
@@ -176,6 +199,8 @@ fn options(arguments: &ConvertArguments, name: &str) -> Result<Options, CliError
 fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Result<(), CliError> {
     let has_nodes = target.has_nodes();
     let of_elements = "none: MATLAB and Modelica have no nodes or elements; it is for Nastran, Abaqus, CalculiX and ANSYS";
+    let of_units =
+        "none: MATLAB and Modelica have SI units; it is for Nastran, Abaqus, CalculiX and ANSYS";
     let of_rotations =
         "none: it is for CalculiX, where rotations are displacements of nodes of their own";
     let options = [
@@ -186,6 +211,7 @@ fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Re
             has_nodes,
             of_elements,
         ),
+        ("--units", arguments.units.is_some(), has_nodes, of_units),
         (
             "--rotation-nodes",
             arguments.rotation_nodes.is_some(),

@@ -56,3 +56,18 @@ def test_frequencies_are_those_of_the_equations(convert, tmp_path, file):
     mass, _, stiffness = equations(file)
     expected = np.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)) / (2 * np.pi)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_a_model_in_millimetres_has_the_same_frequencies(convert, tmp_path, monkeypatch):
+    """Masses in t, supports in N/mm and N·mm/rad, inertias in t·mm²: nothing of the solution has a length."""
+    file = joints.planar()
+    include = convert(file, "calculix", "joint.inp", "--units", "mm").name
+    scaled = {"MASS": 1e-3, "INERTIA": 1e3, "SUPPORT": 1e-3, "TURN_SUPPORT": 1e3}
+    mass, _, stiffness = equations(file)
+    for name, factor in scaled.items():
+        monkeypatch.setitem(globals(), name, [factor * value for value in globals()[name]])
+    printed = solve(tmp_path, include, ["*STEP", "*FREQUENCY", "12", "*END STEP"])
+    rows = re.findall(r"^\s+\d+((?:\s+[-+.\dE]+){4})$", printed, re.M)
+    found = np.array([float(row.split()[2]) for row in rows[:12]])
+    expected = np.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)) / (2 * np.pi)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)

@@ -30,6 +30,17 @@ def test_an_uncoupled_joint_is_a_bush(convert):
     assert not model.dmig
 
 
+def test_numbers_for_a_model_in_millimetres(convert):
+    """N/mm and N·mm/rad; what couples both is N/rad in any of them."""
+    file = joints.diagonal()
+    path = convert(file, "nastran", "bush.nas", "--nodes", "11,12", "--units", "mm")
+    [bush] = read(path).properties.values()
+    factors = [1e-3] * 3 + [1e3] * 3
+    for found, expected in zip((bush.Ki, bush.Bi), joints.in_six(file)):
+        np.testing.assert_allclose(found, np.diag(expected) * factors, rtol=1e-9)
+    assert "Units: N, mm, rad, s, t;" in path.read_text(encoding="ascii")
+
+
 @pytest.mark.parametrize("file", [joints.planar(), joints.coupled()], ids=["planar", "in space"])
 def test_a_coupled_joint_is_two_matrices(convert, file):
     model = read(convert(file, "nastran", "dmig.nas", "--nodes", "11,12", "--first-number", "500"))

@@ -49,7 +49,7 @@ def test_the_plan_is_what_the_estimate_says_of_itself(run, tmp_path, budget):
     assert plan["functions"] == 18 * 18 and plan["lines"] == len(lines) and plan["additions"] == []
     for one, other in zip(plan["unknowns"], found(run, tmp_path)):
         assert one["name"] == other["name"]
-        assert one["standard_deviation"] == pytest.approx(other["standard_deviation"], rel=0.04 if "hits" in budget else 0.02)
+        assert one["standard_deviation"] == pytest.approx(other["standard_deviation"], rel=0.1 if "hits" in budget else 0.02)
         assert one["by_noise_alone"] == pytest.approx(other["by_noise_alone"], rel=0.02)
 
 

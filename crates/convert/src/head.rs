@@ -26,14 +26,21 @@ impl Head {
         let mut lines = vec![
             file.name.clone(),
             format!("Joint for {}, written by {TOOL} {VERSION}", target.name()),
-            "Units: N, m, rad, s, kg; a model in other units needs other numbers".to_owned(),
+            format!(
+                "Units: {}; a model in other units needs other numbers",
+                options.units.names()
+            ),
             "Signs: load on side b = K (x_a - x_b) + C (v_a - v_b); on side a the opposite"
                 .to_owned(),
         ];
         let names = file.joint.dofs.rows().map(|dof| {
             let axis = ["x", "y", "z"][axis_of(dof) % 3];
             match axis_of(dof) {
-                0..=2 => format!("{}: displacement along {axis}, m", dof.name),
+                0..=2 => format!(
+                    "{}: displacement along {axis}, {}",
+                    dof.name,
+                    options.units.of_length()
+                ),
                 _ => format!("{}: rotation about {axis}, rad", dof.name),
             }
         });

@@ -17,6 +17,7 @@ mod modelica;
 mod nastran;
 mod numbers;
 mod reserved;
+mod units;
 
 use bolted_joint_joint::JointFile;
 
@@ -25,6 +26,7 @@ pub use assembly::convert_assembly;
 pub use error::ConvertError;
 use head::Head;
 use linear::Linear;
+pub use units::Units;
 
 /// A tool that takes a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,6 +79,8 @@ pub struct Options {
     pub first_number: u32,
     /// Take the joint of small motion about rest, where sliders stick.
     pub at_rest: bool,
+    /// Of the numbers for programs of finite elements.
+    pub units: Units,
 }
 
 /// A joint for a tool.
@@ -167,6 +171,7 @@ mod tests {
             rotation_nodes: [3, 4],
             first_number: 100,
             at_rest,
+            units: Units::Si,
         }
     }
 

@@ -95,7 +95,7 @@ impl Linear {
             let mut matrix = [[0.0; 6]; 6];
             for (&i, row) in axes.iter().zip(own) {
                 for (&j, value) in axes.iter().zip(row) {
-                    matrix[i][j] = value;
+                    matrix[i][j] = value * options.units.factor(i, j);
                 }
             }
             matrix

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 #: Tools that joints are converted for.
 Tool = Literal["nastran", "abaqus", "calculix", "ansys", "matlab", "modelica"]
 
+#: Units of what is written for programs of finite elements.
+Units = Literal["si", "mm"]
+
 #: What `show` tells of.
 Shown = str | os.PathLike[str] | AJoint | Functions | Study
 
@@ -246,6 +249,7 @@ def convert(
     first_number: int | None = None,
     preload_n_m: float | None = None,
     at_rest: bool = False,
+    units: Units | None = None,
 ) -> Path:
     """Writes a joint for another tool.
 
@@ -267,6 +271,8 @@ def convert(
         Preload at which a joint over the preload is taken, N·m.
     at_rest : bool
         Take the joint of small motion about rest: sliders stick, terms of higher order vanish.
+    units : {"si", "mm"}, optional
+        Units of the numbers, for programs of finite elements: N, m, kg and s, which they are if it is left out, or N, mm, t and s.
 
     Returns
     -------
@@ -297,6 +303,8 @@ def convert(
             arguments += ["--preload", repr(number("preload_n_m", preload_n_m))]
         if at_rest:
             arguments += ["--at-rest"]
+        if units is not None:
+            arguments += ["--units", one_of("units", units, get_args(Units))]
         run(arguments, shown)
     return Path(path)
 

@@ -27,6 +27,7 @@ _ARGUMENTS = {
     "--step-error": "step_error",
     "--step-size-max": "step_size_max_s",
     "--to": "tool",
+    "--units": "units",
 }
 
 #: Arguments that are options without a value.

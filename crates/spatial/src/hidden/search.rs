@@ -102,7 +102,10 @@ impl<'p> Given<'p> {
     fn few(&self, first: &Unknowns) -> Result<Problem, SpatialError> {
         let some = self.problem.thinned(10 * LINES);
         let steady = Beside::of(&some, self.level, self.noise, first)?.steadiest(first)?;
-        Ok(some.with_lines(&steady).thinned(LINES))
+        Ok(Problem {
+            balance: Some(self.problem.thinned(LINES_MAX).balance()?),
+            ..some.with_lines(&steady).thinned(LINES)
+        })
     }
 
     /// Low frequencies by themselves, the lowest first.
@@ -262,7 +265,10 @@ pub(crate) fn estimated(
     let kept = Beside::of(&some, level, noise, unknowns)?.kept(unknowns)?;
     let lines = some.with_lines(&kept).thinned(LINES_MAX);
     let explained = Beside::of(&lines, level, noise, unknowns)?.explained(unknowns)?;
-    Ok(lines.with_lines(&explained))
+    Ok(Problem {
+        balance: Some(problem.thinned(LINES_MAX).balance()?),
+        ..lines.with_lines(&explained)
+    })
 }
 
 /// From one start, whose squares are known: with noise as large as they are at first, which is let down to what it is.

@@ -68,6 +68,7 @@ fn refuse(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Units;
 
     fn options(nodes: [u32; 2], rotation_nodes: [u32; 2], first_number: u32) -> Options {
         Options {
@@ -76,6 +77,7 @@ mod tests {
             rotation_nodes,
             first_number,
             at_rest: false,
+            units: Units::Si,
         }
     }
 

@@ -215,6 +215,20 @@ def test_noise_on_everything_is_in_the_intervals(run, program, tmp_path):
     assert done.returncode == 3 and json.loads(done.stdout)["reduced_chi_squared"] > 2
 
 
+@pytest.mark.parametrize("factor", [20, 0.02])
+def test_stiff_and_soft_joints_are_found_beside_noise_and_errors(run, tmp_path, factor):
+    """4e8 N/m, which the functions hardly tell from a rigid joint, and 4e5, which they tell at low frequencies alone."""
+    rig, rng = Rig(factor * K, 5 * C if factor > 1 else 0.1 * C, sensors=3, impacts=9), np.random.default_rng(401)
+    rows = [rig.rows(side, (rng, 1e-3, 0.01, 0.01)) for side in range(2)]
+    rig.write(tmp_path, np.linspace(60, 3000, 120), noise=0.005, rng=rng, rows=rows, of_sides=(0.005, 0.005))
+    command = "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json"
+    found = json.loads(run(*command, timeout=60).stdout)
+    assert 0.95 < found["reduced_chi_squared"] < 1.05
+    truth = np.concatenate([rig.K[UPPER], rig.C[UPPER]])
+    errors = [(u["free"] - t) / u["standard_deviation"] for u, t in zip(found["unknowns"], truth)]
+    assert np.sqrt(np.mean(np.square(errors))) < 1.4 and np.abs(errors).max() < 4
+
+
 def test_consistency_is_told(run, tmp_path):
     """By the formulas: ρ = ‖F u‖/‖u‖ with u = Y·1, and the coherence of each channel; six impacts agree with anything."""
     rig, rng = Rig(K, C, sensors=3, impacts=9), np.random.default_rng(8)

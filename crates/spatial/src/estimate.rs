@@ -10,7 +10,8 @@ use crate::fit::{Effort, Fit, Squares, covariance};
 use crate::further::{Further, Score, scores};
 use crate::hidden::{self, Beside, searched_beside};
 use crate::identification::SpatialIdentification;
-use crate::level::{of_residuals, sizes};
+use crate::lack;
+use crate::level::{of_residuals, relative_rms, sizes};
 use crate::misfits::Misfit;
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
@@ -229,7 +230,8 @@ impl SpatialStudy {
         let richer = richer(&estimated, &best.unknowns, |problem, unknowns| {
             Normal::of(problem, unknowns, &level)
         })?;
-        let further = match best.has_converged {
+        let is_noise = relative_rms(&estimated, &best.unknowns)? > lack::ROUNDING;
+        let further = match best.has_converged && is_noise {
             true => scores(&estimated, &best.unknowns, &level)?,
             false => Vec::new(),
         };

@@ -23,7 +23,7 @@ const LINES: usize = 200;
 pub(crate) const LACKING: f64 = 1.4;
 
 /// Residuals of this part of the functions are rounding, or nearly so.
-const ROUNDING: f64 = 1e-5;
+pub(crate) const ROUNDING: f64 = 1e-5;
 
 /// What is said where residuals are no noise.
 pub(crate) fn warning(

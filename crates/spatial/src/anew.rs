@@ -81,7 +81,7 @@ impl Problem {
     }
 
     /// Unknowns of a problem without hits anew, for this one, which has them.
-    pub(crate) fn from_repeated(&self, before: &Problem, unknowns: &Unknowns) -> Unknowns {
+    pub(crate) fn unknowns_with_hits(&self, before: &Problem, unknowns: &Unknowns) -> Unknowns {
         let mut errors = before.errors(unknowns);
         for (errors, side) in errors.iter_mut().zip(&self.sides) {
             errors.resize(side.parameters().len(), 0.0);

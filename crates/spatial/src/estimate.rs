@@ -98,7 +98,7 @@ impl Found {
     pub(crate) fn for_hits_anew(&self, before: &Problem, anew: &Problem) -> Begun {
         Begun {
             best: Fit {
-                unknowns: anew.from_repeated(before, &self.best.unknowns),
+                unknowns: anew.unknowns_with_hits(before, &self.best.unknowns),
                 ..self.best
             },
             starts: self.starts,

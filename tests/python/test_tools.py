@@ -67,6 +67,11 @@ def test_convert_writes_what_the_command_line_writes(run, demo, tmp_path):
         return [line for line in text.splitlines() if not line.startswith("$")]
 
     assert cards(path.read_text()) == cards((tmp_path / "a.bdf").read_text()) != []
+    run("convert", joint, "--to", "nastran", "-o", tmp_path / "mm.bdf", "--units", "mm")
+    path = bolted_joint.convert(joint, "nastran", tmp_path / "mm_too.bdf", units="mm")
+    assert cards(path.read_text()) == cards((tmp_path / "mm.bdf").read_text()) != cards((tmp_path / "a.bdf").read_text())
+    with pytest.raises(bolted_joint.BoltedJointError, match="units"):
+        bolted_joint.convert(joint, "matlab", tmp_path / "m10.m", units="mm")
     with pytest.raises(bolted_joint.BoltedJointError, match="'gmsh'"):
         bolted_joint.convert(joint, "gmsh", tmp_path / "c")
 

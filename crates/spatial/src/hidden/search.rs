@@ -111,7 +111,8 @@ impl<'p> Given<'p> {
     /// Low frequencies by themselves, the lowest first.
     fn low(&self) -> Vec<Low<'p>> {
         let lines = self.problem.frequency_hz.len();
-        let counts = LOW.map(|part| (lines / part).max(LOW_MIN));
+        let mut counts = LOW.map(|part| (lines / part).max(LOW_MIN)).to_vec();
+        counts.dedup();
         let counts = counts.into_iter().filter(|&count| 2 * count <= lines);
         let of = |count: usize| Low {
             problem: self.problem.with_lines(&(0..count).collect::<Vec<_>>()),
@@ -136,11 +137,8 @@ impl Low<'_> {
         let squares = Beside::of(&few, self.level, self.noise, first).ok()?;
         let mut searches = Searches::new(given, squares);
         let starts = searches.lowest_first(begun).into_iter();
-        let is_enough = searches.follow(starts.take(AT_FIRST));
-        searches
-            .best
-            .map(|best| best.unknowns)
-            .filter(|_| is_enough)
+        searches.follow(starts.take(AT_FIRST));
+        searches.held
     }
 }
 

@@ -26,26 +26,23 @@ impl SpatialStudy {
     /// What fits best; with hits of the assembly that are elsewhere, where that explains what nothing else does.
     ///
     /// Not all starts are followed where a place is known not to fit: it has to be mended first.
-    pub(crate) fn with_hits(
+    pub(crate) fn found_with_hits(
         &self,
         rms: &Deviations,
         is_known_not_to_fit: bool,
     ) -> Result<(Cow<'_, Self>, Found), SpatialError> {
-        let extent = match is_known_not_to_fit {
-            true => Extent::Likely,
-            false => Extent::All,
-        };
-        let of_all = || self.found(rms, Begin::Searches(extent));
-        let may_be = self.problem.tolerances.is_some() && !self.problem.has_hits_anew();
-        if !may_be || is_known_not_to_fit {
+        if is_known_not_to_fit {
+            let likely = self.found(rms, Begin::Searches(Extent::Likely))?;
+            return Ok((Cow::Borrowed(self), likely));
+        }
+        let of_all = || self.found(rms, Begin::Searches(Extent::All));
+        if self.problem.tolerances.is_none() || self.problem.has_hits_anew() {
             return Ok((Cow::Borrowed(self), of_all()?));
         }
-        let first = self.found_at_first(rms)?;
-        if let Some(found) = &first
-            && self.is_explained(found)?
-        {
-            return Ok((Cow::Borrowed(self), first.map_or_else(of_all, Ok)?));
-        }
+        let first = match self.found_at_first(rms)? {
+            Some(found) if self.is_explained(&found)? => return Ok((Cow::Borrowed(self), found)),
+            other => other,
+        };
         let mut anew = self.clone();
         anew.problem = anew.problem.with_hits(Some(HIT_ANEW));
         let with = match &first {

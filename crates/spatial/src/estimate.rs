@@ -122,7 +122,7 @@ impl SpatialStudy {
             });
         }
         let rms = sizes(problem);
-        let (mut own, mut found) = self.with_hits(&rms, !misfits.is_empty())?;
+        let (mut own, mut found) = self.found_with_hits(&rms, !misfits.is_empty())?;
         let of_hits =
             matches!(own, Cow::Owned(_)).then(|| own.problem.told_anew(&found.best.unknowns));
         let mut result = own.result(&found)?;

@@ -9,8 +9,9 @@ use crate::starts::starts;
 /// Lines that are searched from several starts; all are used from where these lead.
 pub(crate) const SEARCHED: usize = 60;
 
-/// A search that has come as low as the lowest, up to this part.
+/// A search that has come as low as the lowest, up to this part; and beside errors of the set-up, which leave flat valleys.
 const AS_LOW: f64 = 1e-6;
+pub(crate) const AS_LOW_BESIDE_ERRORS: f64 = 1e-3;
 
 /// Standard deviations of χ² up to which chance explains it.
 pub(crate) const BY_CHANCE: f64 = 3.0;
@@ -108,4 +109,13 @@ fn agreeing(fits: &[Fit], numbers: f64) -> usize {
     let as_low = AS_LOW * (lowest + numbers);
     let of_them = fits.iter().filter(|fit| fit.cost <= lowest + as_low);
     of_them.count()
+}
+
+/// How many searches beside errors of the set-up came as low as the lowest, with one more that came to this cost.
+pub(crate) fn agreeing_with(agreeing: usize, lowest: f64, cost: f64) -> usize {
+    match cost {
+        own if own > lowest * (1.0 + AS_LOW_BESIDE_ERRORS) => agreeing,
+        own if own >= lowest * (1.0 - AS_LOW_BESIDE_ERRORS) => agreeing + 1,
+        _ => 1,
+    }
 }

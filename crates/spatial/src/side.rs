@@ -52,7 +52,7 @@ pub(crate) enum Test {
 }
 
 /// What may be wrong with a set-up.
-pub(crate) struct Error<'s> {
+pub(crate) struct MayErr<'s> {
     /// The interface that it belongs to.
     pub(crate) placed: &'s Placed,
     pub(crate) parameter: Parameter,
@@ -219,12 +219,12 @@ impl Side {
     }
 
     /// Errors that the set-up may have: those of channels, those of impacts, and those of the assembly's impacts against these.
-    pub(crate) fn parameters(&self) -> Vec<Error<'_>> {
+    pub(crate) fn parameters(&self) -> Vec<MayErr<'_>> {
         let of = |role| {
             let placed = self.interfaces.iter();
             placed.flat_map(move |placed| {
                 let own = placed.parameters(role).into_iter();
-                own.map(move |parameter| Error {
+                own.map(move |parameter| MayErr {
                     placed,
                     parameter,
                     test: Test::All,
@@ -234,7 +234,7 @@ impl Side {
         let of_hits = self.interfaces.iter().filter(|_| self.hits_anew.is_some());
         let of_hits = of_hits.flat_map(|placed| {
             let own = placed.hits().into_iter();
-            own.map(move |(parameter, _)| Error {
+            own.map(move |(parameter, _)| MayErr {
                 placed,
                 parameter,
                 test: Test::Assembly,

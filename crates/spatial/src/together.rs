@@ -9,7 +9,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{BY_CHANCE, Extent, NOTHING};
+use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, agreeing_with};
 use crate::starts::starts;
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
@@ -34,9 +34,6 @@ const HOPELESS: [f64; 2] = [30.0, 1000.0];
 
 /// Likewise of the errors of the set-up.
 const EXPECTED: f64 = 1.3;
-
-/// A search that has come as low as the lowest, up to this part.
-const AS_LOW: f64 = 1e-3;
 
 /// Stiffness in parts of the structures' own from which on a joint is as good as rigid: a search may have lost it there.
 const RIGID: f64 = 1e4;
@@ -195,11 +192,7 @@ impl<'p> Searches<'p> {
                 continue;
             };
             let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-            self.agreeing = match fit.cost {
-                own if own > lowest * (1.0 + AS_LOW) => self.agreeing,
-                own if own >= lowest * (1.0 - AS_LOW) => self.agreeing + 1,
-                _ => 1,
-            };
+            self.agreeing = agreeing_with(self.agreeing, lowest, fit.cost);
             // noise explains other minima as well at a few lines
             if self.is_stated && self.explains(&fit) {
                 let start = fit.unknowns.clone();
@@ -289,7 +282,7 @@ impl<'p> Searches<'p> {
         match self.checked.is_empty() {
             true => self.agreeing,
             false => costs
-                .filter(|cost| *cost <= lowest * (1.0 + AS_LOW))
+                .filter(|cost| *cost <= lowest * (1.0 + AS_LOW_BESIDE_ERRORS))
                 .count(),
         }
     }

@@ -25,6 +25,27 @@ impl Assembled<'_> {
         by_rows * functions[side]
     }
 
+    /// −D b, or D b on side b: loads on a side's interface for each column of the assembly, with those of hits that are elsewhere.
+    fn loads_across(&self, side: usize, at: &Line) -> DMatrix<Complex64> {
+        let sign = Complex64::from([-1.0, 1.0][side]);
+        let mut loads = &at.dynamic * &at.joint_motions * sign;
+        if let Some(struck) = &self.transformations[side].struck {
+            let first = [0, self.problem.skips()[1]][side];
+            let mut of_own = loads.columns_mut(first, struck.ncols());
+            of_own += struck;
+        }
+        loads
+    }
+
+    /// With the unit references of a side in its own columns: the block R of that side.
+    fn with_own(&self, side: usize, mut references: DMatrix<Complex64>) -> DMatrix<Complex64> {
+        let first = [0, self.problem.skips()[1]][side];
+        for j in 0..references.nrows() {
+            references[(j, first + j)] += 1.0;
+        }
+        references
+    }
+
     /// What changes of the unknowns do to the functions: of each joint that is sought, then of the sensors, of the impacts and of the
     /// assembly's impacts of each side, where their places may be wrong. [`Patterns`] says how the unknowns are made of them.
     pub(crate) fn dyads(&self, line: usize, at: &Line) -> Vec<Group> {
@@ -34,38 +55,21 @@ impl Assembled<'_> {
         }
         // dY_C = L dY R, L = I − a D S, R = I − Sᵀ D b: each error of a set-up changes what the interface does alone, and of L and
         // R its rows and columns count
-        let (left, right) = (
-            &at.by_joint_loads * &at.dynamic,
-            &at.dynamic * &at.joint_motions,
-        );
+        let left = &at.by_joint_loads * &at.dynamic;
         for (side, own) in self.transformations.iter().enumerate() {
             let sign = Complex64::from([-1.0, 1.0][side]);
-            let first_column = [0, self.problem.skips()[1]][side];
-            let functions = &self.problem.sides[side].lines[line];
-            let q = functions.ncols();
-            // loads across the interface for each column of the assembly, with those of hits that are elsewhere
-            let mut right = &right * sign;
-            if let Some(struck) = &own.struck {
-                let mut own_right = right.columns_mut(first_column, q);
-                own_right += struck;
-            }
-            let references = |factor: &DMatrix<Complex64>| {
-                let mut all = factor.clone();
-                for j in 0..q {
-                    all[(j, first_column + j)] += 1.0;
-                }
-                all
-            };
+            let functions = self.measured(line)[side];
+            let right = self.loads_across(side, at);
             // Y R: what the columns of this side come to, for each column of the assembly
             groups.push(Group {
                 left: &left * sign,
-                right: functions * references(&(&own.loads * &right)),
+                right: functions * self.with_own(side, &own.loads * &right),
             });
             // L Y likewise
             let by_loads = self.by_loads_of(side, self.measured(line), &left);
             let of_hits = (!own.struck_changes.is_empty()).then(|| Group {
                 left: &by_loads * &own.loads,
-                right: references(&DMatrix::zeros(q, right.ncols())),
+                right: self.with_own(side, DMatrix::zeros(functions.ncols(), right.ncols())),
             });
             groups.push(Group {
                 left: by_loads,
@@ -82,17 +86,9 @@ impl Assembled<'_> {
         let functions = self.measured(line);
         let by_loads = self.by_loads_of(side, functions, &(&at.by_joint_loads * &at.dynamic));
         let by_loads = by_loads * &own.loads;
-        // the interface in the assembly: T_u Y R
-        let sign = Complex64::from([-1.0, 1.0][side]);
-        let first = [0, self.problem.skips()[1]][side];
-        let loads = &at.dynamic * &at.joint_motions * sign;
-        let alone = &own.motions * functions[side];
-        let mut motions = &alone * &own.loads * loads;
-        let mut by_own = motions.columns_mut(first, alone.ncols());
-        by_own += &alone;
-        if let Some(struck) = &own.struck {
-            by_own += &alone * &own.loads * struck;
-        }
+        // T_u Y R: what the interface does in the assembly
+        let references = self.with_own(side, &own.loads * self.loads_across(side, at));
+        let motions = &own.motions * functions[side] * references;
         let inertia = Complex64::from(self.problem.omega(line).powi(2));
         let observed = self.problem.observed.iter();
         let of = observed.map(|one| {

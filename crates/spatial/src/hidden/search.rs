@@ -6,7 +6,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{BY_CHANCE, Extent, SEARCHED};
+use crate::search::{BY_CHANCE, Extent, SEARCHED, agreeing_with};
 use crate::starts::starts;
 use crate::together::LINES_MAX;
 
@@ -24,9 +24,6 @@ const LAGGING: f64 = 3.0;
 /// Squares over numbers that noise explains, and those of the errors of the set-up that the budget does.
 const EXPLAINED: f64 = 1.2;
 const EXPECTED: f64 = 1.5;
-
-/// A search that has come as low as the lowest, up to this part.
-const AS_LOW: f64 = 1e-3;
 
 /// Starts that are followed before low frequencies are asked, and there.
 const AT_FIRST: usize = 2;
@@ -58,8 +55,11 @@ pub(crate) fn searched_beside(
     let mut searches = Searches::new(given, Beside::of(&few, level, noise, first)?);
     let mut starts = searches.lowest_first(begun).into_iter();
     if !searches.follow(starts.by_ref().take(AT_FIRST)) {
-        let of_low = given.low();
-        let mut of_low = of_low.iter().filter_map(Low::found);
+        let low = given.low();
+        let mut of_low = low.iter().filter_map(|problem| {
+            let own = Given { problem, ..given };
+            own.held().ok().flatten()
+        });
         if !of_low.any(|found| searches.holds(found)) {
             match extent {
                 Extent::First => return Ok(None),
@@ -77,13 +77,6 @@ pub(crate) fn searched_beside(
 #[derive(Clone, Copy)]
 struct Given<'p> {
     problem: &'p Problem,
-    level: &'p Deviations,
-    noise: [f64; 2],
-}
-
-/// Lowest lines of a problem.
-struct Low<'p> {
-    problem: Problem,
     level: &'p Deviations,
     noise: [f64; 2],
 }
@@ -109,36 +102,25 @@ impl<'p> Given<'p> {
     }
 
     /// Low frequencies by themselves, the lowest first.
-    fn low(&self) -> Vec<Low<'p>> {
+    fn low(&self) -> Vec<Problem> {
         let lines = self.problem.frequency_hz.len();
         let mut counts = LOW.map(|part| (lines / part).max(LOW_MIN)).to_vec();
         counts.dedup();
         let counts = counts.into_iter().filter(|&count| 2 * count <= lines);
-        let of = |count: usize| Low {
-            problem: self.problem.with_lines(&(0..count).collect::<Vec<_>>()),
-            level: self.level,
-            noise: self.noise,
-        };
+        let of = |count: usize| self.problem.with_lines(&(0..count).collect::<Vec<_>>());
         counts.map(of).collect()
     }
-}
 
-impl Low<'_> {
-    /// What noise explains there, if anything was found.
-    fn found(&self) -> Option<Unknowns> {
-        let given = Given {
-            problem: &self.problem,
-            level: self.level,
-            noise: self.noise,
-        };
-        let begun = given.starts().ok()?;
-        let first = begun.first()?;
-        let few = given.few(first).ok()?;
-        let squares = Beside::of(&few, self.level, self.noise, first).ok()?;
-        let mut searches = Searches::new(given, squares);
+    /// What noise explains at these lines, if likely starts lead there.
+    fn held(&self) -> Result<Option<Unknowns>, SpatialError> {
+        let begun = self.starts()?;
+        let first = begun.first().ok_or(SpatialError::NoStart)?;
+        let few = self.few(first)?;
+        let squares = Beside::of(&few, self.level, self.noise, first)?;
+        let mut searches = Searches::new(*self, squares);
         let starts = searches.lowest_first(begun).into_iter();
         searches.follow(starts.take(AT_FIRST));
-        searches.held
+        Ok(searches.held)
     }
 }
 
@@ -187,20 +169,20 @@ impl<'p> Searches<'p> {
                 continue;
             };
             let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-            self.agreeing = match fit.cost {
-                own if own > lowest * (1.0 + AS_LOW) => self.agreeing,
-                own if own >= lowest * (1.0 - AS_LOW) => self.agreeing + 1,
-                _ => 1,
-            };
+            self.agreeing = agreeing_with(self.agreeing, lowest, fit.cost);
             if fit.cost < lowest {
                 self.best = Some(fit);
+                self.is_refuted = false;
             }
             let is_enough =
                 |best: &&Fit| self.explains(best) && (best.cost < by_chance || self.agreeing > 1);
             let enough = self.best.as_ref().filter(is_enough);
             let enough = enough.map(|best| best.unknowns.clone());
-            if enough.is_some_and(|unknowns| self.holds(unknowns)) {
-                return true;
+            if let Some(unknowns) = enough {
+                if self.holds(unknowns) {
+                    return true;
+                }
+                self.is_refuted = true;
             }
         }
         false
@@ -220,13 +202,9 @@ impl<'p> Searches<'p> {
             let fit = Fit::by(&mut squares, unknowns, Effort::Coarse)?;
             Ok((fit.cost / squares.numbers() as f64, fit.unknowns))
         });
-        let Ok((left, unknowns)) = at_more else {
-            return false;
-        };
-        let holds = left < EXPLAINED;
-        self.held = holds.then_some(unknowns);
-        self.is_refuted = !holds;
-        holds
+        let held = at_more.ok().filter(|(left, _)| *left < EXPLAINED);
+        self.held = held.map(|(_, unknowns)| unknowns);
+        self.held.is_some()
     }
 
     /// Whether noise and budget explain what is left, or nearly so.

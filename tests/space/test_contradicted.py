@@ -8,6 +8,8 @@ import pytest
 from frames import Rig, row
 from test_identify import EXACT, FREQUENCIES, UPPER, C, K, identified
 
+SMALL = "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"
+
 
 def measured_beside(rig, folder, places, more=SMALL):
     """A test whose places are off by `places` (of a, then of b: a shift of each hit, m), beside errors of the budget."""

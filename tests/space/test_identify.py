@@ -258,9 +258,6 @@ def test_an_exact_set_up_with_a_budget_is_no_other_joint(run, tmp_path):
     assert apart(identified(run, tmp_path)["joint_file"]["joint"]["stiffness"], K) < 0.1
 
 
-SMALL = "budget = { position = 1e-4, rotation = 1e-3, gain = 1e-3 }\n"
-
-
 @pytest.mark.parametrize(
     "side, of_impacts, places, factor, key, dofs, says",
     [

@@ -7,8 +7,8 @@ use bolted_joint::show::{FileKind, command_for};
 
 use super::error::CliError;
 
-/// Refuses a file that is not there, or of a kind which the command does not take; what is of no known kind is left to its
-/// reader's message.
+/// Refuses a file that is not there, or of a kind which the command does not take; what is of no known kind and may be meant is left
+/// to its reader's message.
 pub(super) fn expect(
     path: &Path,
     expected: &'static str,
@@ -31,7 +31,7 @@ fn expect_kind(
     takes: impl Fn(FileKind) -> bool,
 ) -> Result<FileKind, CliError> {
     let kind = FileKind::of(path);
-    if kind == FileKind::Unknown || takes(kind) {
+    if takes(kind) || kind == FileKind::Unknown && !is_text_of_another_kind(path) {
         return Ok(kind);
     }
     let instead = match (kind, command_for(kind, path)) {
@@ -45,6 +45,18 @@ fn expect_kind(
         expected,
         instead,
     })
+}
+
+/// Whether a file has text and a name that say it is none of this program's: what a reader would say of it helps nobody.
+fn is_text_of_another_kind(path: &Path) -> bool {
+    let has_own_name = path.extension().is_none_or(|extension| {
+        let known = ["toml", "json"].iter();
+        known
+            .into_iter()
+            .any(|own| extension.eq_ignore_ascii_case(own))
+    });
+    let text = fs::read_to_string(path);
+    !has_own_name && text.is_ok_and(|text| !text.trim().is_empty())
 }
 
 /// A study.

@@ -369,8 +369,11 @@ fn a_command_that_gets_another_kind_of_file_names_the_right_one() {
         "broken.toml",
         BEAMS.replacen("name = \"two beams\"", "name = \"two beams", 1),
     );
+    bench.write("README.md", "# A title\n\nA sentence, and another.\n");
     #[rustfmt::skip]
     let cases = [
+        ("identify README.md -o o.joint.json", "README.md: found a file of an unknown kind, expected a study (TOML); check the path"),
+        ("export README.md -o o.fmu", "README.md: found a file of an unknown kind, expected a joint file (JSON) or an assembly file (TOML); check the path"),
         ("check assembly.uff", "found a universal file, expected a joint file (JSON), an assembly file (TOML) or an FMU; `bolted-joint show assembly.uff` takes it"),
         ("check study.toml", "found a study of method \"frf-decoupling\", expected a joint file (JSON), an assembly file (TOML) or an FMU; `bolted-joint identify study.toml -o NAME.joint.json` takes it"),
         ("check a-modes.toml", "found modes of a structure"),

@@ -121,8 +121,13 @@ def test_a_mass_that_the_assembly_alone_has_is_told(program, tmp_path, side, gra
     with_other_assembly(rig, tmp_path, rows, heavier, rows, 0.003, rng)
     command = [program, "identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", "--json"]
     done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
-    told = [own for own in json.loads(done.stdout)["warnings"] if "at the joint, in the assembly alone" in own]
+    found = json.loads(done.stdout)
+    told = [own for own in found["warnings"] if "at the joint, in the assembly alone" in own]
     assert len(told) == (grams > 0), done.stderr
+    # the joint is another one with it: ten, six and one of its deviations off
+    is_off = np.abs(in_deviations(found["joint_file"])).max() > 5
+    assert is_off == (grams > 0) and done.returncode == (3 if is_off else 0)
+    assert any("more on" in own and "standard deviations away" in own for own in found["reasons_against"]) == is_off
     for warning in told:
         value, deviation = warning.split("a mass of ")[1].split(" g")[0].split(" ± ")
         assert abs(float(value) - grams) < 0.05 * grams + 0.06 and float(deviation) < 0.2, warning

@@ -167,8 +167,10 @@ impl SpatialStudy {
         let own = match (self.has_noise(), problem.error_count()) {
             (true, _) => searched_beside(problem, &level, self.noise, extent)?,
             (false, 0) => {
-                let (found, starts) = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
-                Some((found.on(problem, &level)?, starts))
+                let own = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
+                let mut found = own.fit.on(problem, &level)?;
+                found.has_converged &= own.rivals == 0;
+                Some((found, own.starts))
             }
             (false, _) => together(problem, &level, is_stated, extent)?,
         };

@@ -29,6 +29,7 @@ mod joint_file;
 mod lack;
 mod level;
 mod links;
+mod loose;
 mod lossy;
 mod massive;
 mod mirrored;

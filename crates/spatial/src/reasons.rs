@@ -76,6 +76,15 @@ pub(crate) fn of_search(has_converged: bool, relative_rms: f64) -> Vec<String> {
     reasons
 }
 
+/// Of other joints that searches came to.
+pub(crate) fn of_rivals(rivals: usize) -> Option<String> {
+    (rivals > 0).then(|| {
+        "other joints explain the functions as well: measure at more points, on every part, with at least as many sensors and \
+         impacts as all joints have motions; or take models with fewer unknowns (joint.model)"
+            .to_owned()
+    })
+}
+
 /// Of noise that is stated.
 pub(crate) fn of_noise(reduced_chi_squared: Option<f64>) -> Option<String> {
     let chi = reduced_chi_squared.filter(|&chi| chi > MISFIT)?;

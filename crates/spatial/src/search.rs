@@ -4,7 +4,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::Deviations;
 use crate::problem::Problem;
-use crate::starts::starts;
+use crate::starts::{Starts, starts};
 
 /// Lines that are searched from several starts; all are used from where these lead.
 pub(crate) const SEARCHED: usize = 60;
@@ -26,6 +26,19 @@ const HOPELESS: f64 = 0.2;
 /// Searches that crept far above what noise explains and are followed to the end, the lowest ones, where none was better.
 const FOLLOWED: usize = 3;
 
+/// Standard deviations of χ² up to which a minimum above the lowest explains the functions, too, where they may have other joints.
+const RIVALS: f64 = 6.0;
+
+/// What searches from several starts came to.
+pub(crate) struct Searched {
+    /// The lowest.
+    pub(crate) fit: Fit,
+    /// How many starts were tried, and how many came as low.
+    pub(crate) starts: [usize; 2],
+    /// Others that explain the functions nearly as well, where that may be.
+    pub(crate) rivals: usize,
+}
+
 /// How many starts are followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Extent {
@@ -37,14 +50,14 @@ pub(crate) enum Extent {
     All,
 }
 
-/// The lowest of the searches, how many starts were tried and how many came as low. The others are not tried after one that noise
-/// explains, where its level is stated, or, where it is not, after two that agree or one that leaves nothing. Where noise does not
-/// explain the lowest, most of those that were followed to the end have to lead there: it may be another minimum.
+/// The lowest of the searches. Beyond starts that are in doubt, no other is tried after one that noise explains, where its level is
+/// stated, or, where it is not, after two that agree or one that leaves nothing. Where noise does not explain the lowest, most of
+/// those that were followed to the end have to lead there: it may be another minimum.
 pub(crate) fn searched(
     problem: &Problem,
     level: &Deviations,
     is_stated: bool,
-) -> Result<(Fit, [usize; 2]), SpatialError> {
+) -> Result<Searched, SpatialError> {
     let numbers = problem.numbers() as f64;
     // χ² of ν numbers is ν ± √(2 ν)
     let explained = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
@@ -53,14 +66,14 @@ pub(crate) fn searched(
         true => explained,
         false => lowest(ended),
     };
-    let is_explained = |fit: &Fit| {
-        let leaves_nothing = fit.cost < NOTHING * numbers;
-        fit.has_converged && (leaves_nothing || is_stated && fit.cost < explained)
-    };
+    let leaves_nothing = |fit: &Fit| fit.has_converged && fit.cost < NOTHING * numbers;
+    let is_explained =
+        |fit: &Fit| leaves_nothing(fit) || fit.has_converged && is_stated && fit.cost < explained;
     let mut ended: Vec<Fit> = Vec::new();
     let mut crept: Vec<Fit> = Vec::new();
     let mut tried = 0;
-    for start in starts(problem, level)? {
+    let Starts { all, in_doubt } = starts(problem, level)?;
+    for start in all {
         tried += 1;
         let effort = Effort::Promising(promising(&ended));
         let Ok(fit) = Fit::of(problem, start, level, effort) else {
@@ -74,9 +87,18 @@ pub(crate) fn searched(
         // the level is the functions' own
         let is_hopeless =
             !is_stated && tried >= PATIENCE && lowest(&ended) > HOPELESS.powi(2) * numbers;
-        if has_agreed || is_hopeless || ended.last().is_some_and(is_explained) {
+        let is_enough = has_agreed || is_hopeless || ended.iter().any(is_explained);
+        if ended.last().is_some_and(&leaves_nothing) || tried >= in_doubt && is_enough {
             break;
         }
+    }
+    let as_good = |fit: &Fit, lowest: f64| {
+        in_doubt > 0 && fit.cost <= lowest * (1.0 + RIVALS * (2.0 / numbers).sqrt())
+    };
+    // one that creeps may be on its way to the lowest
+    let least = lowest(&ended).min(lowest(&crept));
+    for fit in crept.extract_if(.., |fit| as_good(fit, least)) {
+        ended.extend(Fit::from(problem, fit.unknowns, level));
     }
     if !ended.iter().any(is_explained) {
         crept.sort_by(|one, other| one.cost.total_cmp(&other.cost));
@@ -85,6 +107,8 @@ pub(crate) fn searched(
         }
     }
     let agreeing = agreeing(&ended, numbers);
+    let least = lowest(&ended);
+    let as_good = ended.iter().filter(|fit| as_good(fit, least)).count();
     let is_known = ended.iter().any(is_explained)
         || match is_stated {
             true => 2 * agreeing > ended.len(),
@@ -95,7 +119,11 @@ pub(crate) fn searched(
     let best = all.min_by(|one, other| one.cost.total_cmp(&other.cost));
     let mut best = best.ok_or(SpatialError::NoStart)?;
     best.has_converged &= is_known;
-    Ok((best, [tried, agreeing]))
+    Ok(Searched {
+        fit: best,
+        starts: [tried, agreeing],
+        rivals: as_good.saturating_sub(agreeing),
+    })
 }
 
 fn lowest(fits: &[Fit]) -> f64 {

@@ -12,6 +12,7 @@ use crate::assembled::{Assembled, Open};
 use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
 use crate::fit::covariance;
+use crate::loose::Loose;
 use crate::motionless::refuse_motionless;
 use crate::normal::{Deviations, Normal};
 use crate::patterns::Patterns;
@@ -23,6 +24,9 @@ const LINES: usize = 60;
 
 /// Stiffnesses of the starts, in parts of what balances the structures.
 const PARTS: [f64; 5] = [1.0, 0.1, 10.0, 0.01, 100.0];
+
+/// Likewise of loads that are sought as well.
+const LOOSE_PARTS: [f64; 6] = [0.1, 3.0, 0.3, 10.0, 1.0, 0.03];
 
 /// The joints line by line, and in these parts of it.
 const BESIDE: [f64; 5] = [1.0, 1.5, 0.7, 0.5, 0.3];
@@ -40,10 +44,18 @@ const RANK: f64 = 1e-8;
 const PARTS_OF_LINES: [usize; 2] = [2, 3];
 
 /// Starts, the likely ones first; each is made when it is asked for.
+pub(crate) struct Starts<I> {
+    pub(crate) all: I,
+    /// How many of them have to be followed before one is the answer: where the functions do not reach all motions of the joints,
+    /// they may have other joints as well.
+    pub(crate) in_doubt: usize,
+}
+
+/// Starts, as they are for these functions.
 pub(crate) fn starts(
     problem: &Problem,
     level: &Deviations,
-) -> Result<impl Iterator<Item = Unknowns> + use<>, SpatialError> {
+) -> Result<Starts<impl Iterator<Item = Unknowns> + use<>>, SpatialError> {
     let all = problem.frequency_hz.len();
     let looked_at: Vec<usize> = (0..all).step_by(all.div_ceil(LINES).max(1)).collect();
     let problem = problem.with_lines(&looked_at);
@@ -82,22 +94,33 @@ pub(crate) fn starts(
     }
     let balance = balance(&problem, &open);
     let middle = problem.omega(looked_at.len() / 2);
-    for part in PARTS {
+    let of_part = |part: f64| -> Vec<[Matrix6<f64>; 2]> {
         let of = |joint: usize| {
             let stiffness = Matrix6::from_diagonal(&Vector6::from_fn(|dof, _| {
                 part * balance[MOTIONS * joint + dof]
             }));
             [stiffness, stiffness * (LOSS / middle)]
         };
-        ways.push(Way::At((0..problem.links.sought().len()).map(of).collect()));
+        (0..problem.links.sought().len()).map(of).collect()
+    };
+    let loose = loads.is_none().then(|| Loose::of(&problem, &open, level));
+    let mut in_doubt = 0;
+    if loose.is_some() {
+        ways.extend(LOOSE_PARTS.map(|part| Way::Loose(of_part(part))));
+        in_doubt = ways.len();
     }
-    Ok(ways.into_iter().filter_map(move |way| match way {
+    ways.extend(PARTS.map(|part| Way::At(of_part(part))));
+    let all = ways.into_iter().filter_map(move |way| match way {
         Way::At(matrices) => of_matrices(&problem, &matrices),
+        Way::Loose(from) => loose
+            .as_ref()?
+            .from(&problem, of_matrices(&problem, &from)?),
         Way::Balanced(from, lines) => {
             let start = of_matrices(&problem, &from)?;
             loads.as_ref()?.balanced(&problem, start, &lines)
         }
-    }))
+    });
+    Ok(Starts { all, in_doubt })
 }
 
 /// 1/|H_ii| of each motion of the joints that are sought, as the middle of the lines has it: stiffnesses that are like those of the
@@ -130,6 +153,8 @@ impl Problem {
 enum Way {
     /// K and C of each joint.
     At(Vec<[Matrix6<f64>; 2]>),
+    /// Loads that balance loosely, from such.
+    Loose(Vec<[Matrix6<f64>; 2]>),
     /// Loads and motions balanced at these lines, from such.
     Balanced(Vec<[Matrix6<f64>; 2]>, Vec<usize>),
 }
@@ -326,7 +351,7 @@ impl Loads {
 }
 
 /// (√W A)⁺ √W; `None` unless its rank is that of its columns.
-fn pseudo_inverse(
+pub(crate) fn pseudo_inverse(
     matrix: &DMatrix<Complex64>,
     weights: &[f64],
     scales: &[f64],

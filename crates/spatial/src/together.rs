@@ -58,7 +58,7 @@ pub(crate) fn together(
     let likely = problem.likely_errors()?;
     let mut searches = Searches::new(problem, &likely, level, is_stated)?;
     let beside = searches.beside(&likely)?;
-    let alone = searches.lowest_first(starts(&searches.thin, level)?);
+    let alone = searches.lowest_first(starts(&searches.thin, level)?.all);
     let tries = (0..beside.len().max(alone.len())).map(|i| {
         let of = |way, starts: &[Start]| starts.get(i).map(|start| (way, start.clone()));
         [
@@ -168,7 +168,7 @@ impl<'p> Searches<'p> {
     /// Starts beside these errors of the set-up, of more lines than the searches have.
     fn beside(&self, errors: &[Vec<f64>; 2]) -> Result<Vec<Start>, SpatialError> {
         let known = self.problem.thinned(LINES_MAX).with_errors(errors)?;
-        let joints = starts(&known, self.level)?;
+        let joints = starts(&known, self.level)?.all;
         Ok(self.lowest_first(joints.map(|joint| joint.beside(errors))))
     }
 

@@ -14,7 +14,7 @@ use crate::normal::Normal;
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem};
 use crate::reasons;
-use crate::search::searched;
+use crate::search::{Searched, searched};
 
 /// Rounds in which the level of the noise follows the residuals.
 const ROUNDS: usize = 5;
@@ -96,8 +96,12 @@ impl ChainStudy {
             Level::OfResiduals => rms.clone(),
         };
         let is_stated = matches!(self.level, Level::Relative(_));
-        let (coarse, starts) = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
-        let mut best = coarse.on(&problem, &level)?;
+        let Searched {
+            fit,
+            starts,
+            rivals,
+        } = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
+        let mut best = fit.on(&problem, &level)?;
         if let Level::OfResiduals = self.level {
             for _ in 0..ROUNDS {
                 level = of_residuals(&problem, &best.unknowns, &rms)?;
@@ -144,9 +148,9 @@ impl ChainStudy {
             reasons_against: Vec::new(),
         };
         found.reasons_against = found.reasons(best.has_converged);
-        found
-            .reasons_against
-            .extend(of_energy.into_iter().flatten());
+        let more = reasons::of_rivals(rivals).into_iter();
+        let more = more.chain(of_energy.into_iter().flatten());
+        found.reasons_against.extend(more);
         Ok(found)
     }
 

@@ -87,6 +87,7 @@ impl<'p> Given<'p> {
         let known = self.problem.thinned(SEARCHED);
         let known = known.with_errors(&likely)?.smoothed()?;
         Ok(starts(&known, self.level)?
+            .all
             .map(|joint| joint.beside(&likely))
             .collect())
     }

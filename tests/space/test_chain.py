@@ -90,6 +90,39 @@ def test_two_unknown_joints_with_noise_are_in_their_intervals(run, tmp_path):
     assert np.mean(squares) == pytest.approx(42, abs=11), squares
 
 
+def bolt(along, across, turned, twisted):
+    """A joint that is the same all around z, with some coupling of sliding and tilting."""
+    matrix = np.diag([across, across, along, turned, turned, twisted])
+    matrix[0, 4] = matrix[4, 0] = 0.3 * np.sqrt(across * turned)
+    matrix[1, 3] = matrix[3, 1] = -matrix[0, 4]
+    return matrix
+
+
+@pytest.mark.parametrize("measured, hit", [([202, 302, 303], [202, 302, 303]), ([102, 202, 303], [103, 202, 303])])
+def test_two_bolts_are_found_by_fewer_sensors_than_they_have_motions(run, tmp_path, measured, hit):
+    """Nine responses and nine impacts say nothing of the loads in twelve motions by themselves."""
+    joints = [(bolt(2e8, 8e7, 1.3e4, 1.1e4), bolt(400, 160, 0.027, 0.021)), (bolt(6e7, 2e7, 4e3, 2.7e3), bolt(240, 80, 0.016, 0.011))]
+    rng = np.random.default_rng(4)
+    model = 'model = "bolt"\nlength = 0.03'
+    Chain(joints).write(tmp_path, FREQUENCIES[::2], measured, hit, [model, model], noise=5e-3, rng=rng)
+    found = identified(run, tmp_path)
+    entry = [(0, 0), (2, 2), (3, 3), (5, 5), (0, 4)]
+    errors = [
+        (u["free"] - truth[place]) / u["standard_deviation"]
+        for joint, expected in zip(found["joints"], joints)
+        for u, (truth, place) in zip(joint["unknowns"], ((m, place) for m in expected for place in entry))
+    ]
+    assert len(errors) == 20 and 0.5 < np.sqrt(np.mean(np.square(errors))) < 1.5, errors
+
+
+def test_other_joints_that_explain_the_functions_as_well_are_told(run, tmp_path):
+    """84 numbers by as many functions with much noise: searches come to joints that are all wrong, and none is handed on."""
+    rng = np.random.default_rng(0)
+    Chain([FIRST, SECOND]).write(tmp_path, FREQUENCIES, [102, 202, 303], [103, 202, 303], [SOUGHT, SOUGHT], noise=5e-3, rng=rng)
+    done = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3)
+    assert "other joints explain the functions as well" in done.stderr, done.stderr
+
+
 def test_a_wrong_model_is_not_put_down_to_the_part_between(run, tmp_path):
     """One of the joints is sought as a single bolt, which it is not: what is said is that it does not explain the functions."""
     chain = Chain([FIRST, SECOND])

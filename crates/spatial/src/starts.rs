@@ -12,7 +12,7 @@ use crate::assembled::{Assembled, Open};
 use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
 use crate::fit::covariance;
-use crate::loose::Loose;
+use crate::loose::{First, Loose};
 use crate::motionless::refuse_motionless;
 use crate::normal::{Deviations, Normal};
 use crate::patterns::Patterns;
@@ -26,7 +26,7 @@ const LINES: usize = 60;
 const PARTS: [f64; 5] = [1.0, 0.1, 10.0, 0.01, 100.0];
 
 /// Likewise of loads that are sought as well.
-const LOOSE_PARTS: [f64; 6] = [0.1, 3.0, 0.3, 10.0, 1.0, 0.03];
+const LOOSE_PARTS: [f64; 4] = [3.0, 0.1, 10.0, 1.0];
 
 /// The joints line by line, and in these parts of it.
 const BESIDE: [f64; 5] = [1.0, 1.5, 0.7, 0.5, 0.3];
@@ -106,15 +106,19 @@ pub(crate) fn starts(
     let loose = loads.is_none().then(|| Loose::of(&problem, &open, level));
     let mut in_doubt = 0;
     if loose.is_some() {
-        ways.extend(LOOSE_PARTS.map(|part| Way::Loose(of_part(part))));
+        for part in LOOSE_PARTS {
+            let both = [First::All, First::Diagonal];
+            ways.extend(both.map(|first| Way::Loose(of_part(part), first)));
+        }
         in_doubt = ways.len();
     }
     ways.extend(PARTS.map(|part| Way::At(of_part(part))));
     let all = ways.into_iter().filter_map(move |way| match way {
         Way::At(matrices) => of_matrices(&problem, &matrices),
-        Way::Loose(from) => loose
-            .as_ref()?
-            .from(&problem, of_matrices(&problem, &from)?),
+        Way::Loose(from, first) => {
+            let start = of_matrices(&problem, &from)?;
+            loose.as_ref()?.from(&problem, start, first)
+        }
         Way::Balanced(from, lines) => {
             let start = of_matrices(&problem, &from)?;
             loads.as_ref()?.balanced(&problem, start, &lines)
@@ -154,7 +158,7 @@ enum Way {
     /// K and C of each joint.
     At(Vec<[Matrix6<f64>; 2]>),
     /// Loads that balance loosely, from such.
-    Loose(Vec<[Matrix6<f64>; 2]>),
+    Loose(Vec<[Matrix6<f64>; 2]>, First),
     /// Loads and motions balanced at these lines, from such.
     Balanced(Vec<[Matrix6<f64>; 2]>, Vec<usize>),
 }

@@ -161,6 +161,14 @@ pub(crate) fn add_descent(
     }
 }
 
+/// Σ w Re conj(d) e.
+pub(crate) fn product(grid: &Grid, d: &DMatrix<Complex64>, e: &DMatrix<Complex64>) -> f64 {
+    let terms = d.iter().zip(e).zip(&grid.weights);
+    terms
+        .map(|((d, e), weight)| weight * (d.conj() * e).re)
+        .sum()
+}
+
 /// Σ w |e|².
 pub(crate) fn squares(grid: &Grid, errors: &DMatrix<Complex64>) -> f64 {
     let terms = errors.iter().zip(&grid.weights);

@@ -1,14 +1,19 @@
 //! What a further number would explain that the model does not have: its value, and by how much χ² falls with it. By the score at the
 //! estimate (Rao 1948), beside the joint and all errors of the set-up.
 
+use std::ops::Range;
+
 use nalgebra::{Cholesky, DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
+use crate::dyads::{Grid, descent, product, squares};
 use crate::error::SpatialError;
-use crate::normal::{Deviations, Normal, add_priors};
+use crate::normal::{Deviations, Normal, residuals};
 use crate::parallel::over_lines;
+use crate::patterns::{Patterns, Slopes};
 use crate::problem::{Problem, Unknowns};
+use crate::side::MOTIONS;
 use crate::together::LINES_MAX;
 
 /// A number that the model does not have.
@@ -34,25 +39,41 @@ pub(crate) struct Score {
 impl Further {
     const ALL: [Self; 3] = [Self::LossFactor, Self::Mass(0), Self::Mass(1)];
 
-    /// What the number does to the observed functions.
+    /// What the number does to the functions, rows × columns.
     fn derivatives(
         self,
         assembled: &Assembled<'_>,
-        problem: &Problem,
-        unknowns: &Unknowns,
-        of_all: &DMatrix<Complex64>,
+        stiffness: &DMatrix<Complex64>,
         (line, at): (usize, &Line),
-    ) -> Result<DVector<Complex64>, SpatialError> {
-        Ok(match self {
-            // ∂D/∂η = jK
+        motions: Range<usize>,
+    ) -> DMatrix<Complex64> {
+        match self {
+            // ∂D/∂η = jK, ∂Y_C = −a ∂D b
             Self::LossFactor => {
-                let sought = problem.only()?;
-                let stiffness = sought.first..sought.first + sought.model.count();
-                let values = unknowns.0.rows_range(stiffness.clone());
-                of_all.columns_range(stiffness) * values.map(|k| Complex64::new(0.0, k))
+                let left = at.by_joint_loads.columns_range(motions.clone());
+                left * stiffness * at.joint_motions.rows_range(motions) * -Complex64::i()
             }
             Self::Mass(side) => assembled.by_mass(side, line, at),
-        })
+        }
+    }
+}
+
+/// Sums over lines.
+#[derive(Default)]
+struct Sums {
+    /// 2 Σ w |∂f/∂θ|² of the further number θ.
+    information: f64,
+    /// 2 Σ w Re conj(∂f/∂θ) e.
+    descent: f64,
+    /// Likewise of ∂f/∂θ and the derivatives by all other numbers.
+    with_others: Slopes,
+}
+
+impl Sums {
+    fn add(&mut self, other: &Self) {
+        self.information += other.information;
+        self.descent += other.descent;
+        self.with_others.add(&other.with_others);
     }
 }
 
@@ -65,54 +86,45 @@ pub(crate) fn scores(
     let thin = problem.thinned(LINES_MAX);
     let assembled = Assembled::new(&thin, unknowns)?;
     let own = thin.count();
-    let count = own + Further::ALL.len();
+    let grid = Grid::new(thin.weights(level));
+    let sought = thin.only()?;
+    let [stiffness, _] = sought.matrices(unknowns.0.as_slice())?;
+    let stiffness = DMatrix::from_fn(MOTIONS, MOTIONS, |i, j| Complex64::from(stiffness[(i, j)]));
     let parts = over_lines(thin.frequency_hz.len(), |lines| {
-        let mut sums = Normal::zeros(count);
+        let mut sums = Further::ALL.map(|_| Sums::default());
         for line in lines {
             let found = assembled.line(line)?;
-            let of_own = assembled.derivatives(line, &found);
-            let mut all = of_own.clone().resize_horizontally(count, Complex64::ZERO);
-            for (n, further) in Further::ALL.into_iter().enumerate() {
+            let groups = assembled.dyads(line, &found);
+            let errors = residuals(&thin, line, &found);
+            for (further, sums) in Further::ALL.into_iter().zip(&mut sums) {
                 let at = (line, &found);
-                let by = further.derivatives(&assembled, &thin, unknowns, &of_own, at)?;
-                all.set_column(own + n, &by);
+                let by = further.derivatives(&assembled, &stiffness, at, sought.motions());
+                sums.information += 2.0 * squares(&grid, &by);
+                sums.descent += 2.0 * product(&grid, &by, &errors);
+                let slopes = descent(&grid, &groups, &by);
+                sums.with_others
+                    .add_line(thin.omega(line), MOTIONS * MOTIONS, &slopes);
             }
-            let mut rows = DMatrix::zeros(2 * level.len(), count);
-            let mut left = DVector::zeros(2 * level.len());
-            for (n, (one, deviation)) in thin.observed.iter().zip(level).enumerate() {
-                let weight = std::f64::consts::SQRT_2 / deviation;
-                let error = (one.values[line] - found.functions[n]) * weight;
-                for column in 0..count {
-                    let value = all[(n, column)] * weight;
-                    rows[(2 * n, column)] = value.re;
-                    rows[(2 * n + 1, column)] = value.im;
-                }
-                left[2 * n] = error.re;
-                left[2 * n + 1] = error.im;
-            }
-            sums.information += rows.tr_mul(&rows);
-            sums.descent += rows.tr_mul(&left);
         }
-        Ok::<Normal, SpatialError>(sums)
+        Ok::<_, SpatialError>(sums)
     })?;
-    let mut sums = Normal::zeros(count);
-    parts.iter().for_each(|part| sums.add(part));
-    add_priors(&thin, unknowns, &mut sums);
-    let of_others = sums.information.view((0, 0), (own, own)).into_owned();
-    let Some(of_others) = Cholesky::new(of_others) else {
+    let mut sums = Further::ALL.map(|_| Sums::default());
+    for part in &parts {
+        sums.iter_mut()
+            .zip(part)
+            .for_each(|(all, own)| all.add(own));
+    }
+    let patterns = Patterns::of(&thin, Some(&assembled));
+    let normal = Normal::of(&thin, unknowns, level)?;
+    let Some(of_others) = Cholesky::new(normal.information) else {
         return Ok(Vec::new());
     };
-    let score = |(n, further): (usize, Further)| {
-        let place = own + n;
-        // of this number alone, beside all others
-        let with_others = sums
-            .information
-            .view((0, place), (own, 1))
-            .column(0)
-            .into_owned();
+    // of each number alone, beside all others
+    let score = |(further, sums): (Further, &Sums)| {
+        let with_others = patterns.descent(own, &sums.with_others);
         let beside = of_others.solve(&with_others);
-        let information = sums.information[(place, place)] - beside.dot(&with_others);
-        let descent = sums.descent[place] - beside.dot(&sums.descent.rows(0, own));
+        let information = sums.information - beside.dot(&with_others);
+        let descent = sums.descent - beside.dot(&normal.descent);
         (information > 0.0).then(|| {
             let value = descent / information;
             let score = Score {
@@ -124,7 +136,7 @@ pub(crate) fn scores(
             (further, score)
         })
     };
-    Ok((Further::ALL.into_iter().enumerate())
+    Ok((Further::ALL.into_iter().zip(&sums))
         .filter_map(score)
         .collect())
 }

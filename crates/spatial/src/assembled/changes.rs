@@ -1,7 +1,6 @@
 //! How the assembly's functions change with its unknowns: with the joint, with errors of the set-up, and with a mass at the joint.
 
-use bolted_joint_space::Dof;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::{Assembled, Line};
@@ -80,8 +79,8 @@ impl Assembled<'_> {
         groups
     }
 
-    /// What a mass at a side's end of the joint does to the observed functions: ω² Y_C,m u of its translations.
-    pub(crate) fn by_mass(&self, side: usize, line: usize, at: &Line) -> DVector<Complex64> {
+    /// What a mass at a side's end of the joint does to the functions, rows × columns: ω² Y_C,m u of its translations.
+    pub(crate) fn by_mass(&self, side: usize, line: usize, at: &Line) -> DMatrix<Complex64> {
         let own = &self.transformations[side];
         let functions = self.measured(line);
         let by_loads = self.by_loads_of(side, functions, &(&at.by_joint_loads * &at.dynamic));
@@ -90,15 +89,8 @@ impl Assembled<'_> {
         let references = self.with_own(side, &own.loads * self.loads_across(side, at));
         let motions = &own.motions * functions[side] * references;
         let inertia = Complex64::from(self.problem.omega(line).powi(2));
-        let observed = self.problem.observed.iter();
-        let of = observed.map(|one| {
-            let [o, i] = one.at;
-            let translations = Dof::ALL.iter().filter(|dof| !dof.is_rotation());
-            let moved =
-                translations.map(|dof| by_loads[(o, dof.index())] * motions[(dof.index(), i)]);
-            inertia * moved.sum::<Complex64>()
-        });
-        DVector::from_iterator(self.problem.observed.len(), of)
+        // translations come first
+        by_loads.columns(0, 3) * motions.rows(0, 3) * inertia
     }
 
     /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.

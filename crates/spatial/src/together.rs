@@ -38,8 +38,10 @@ const EXPECTED: f64 = 1.3;
 /// Stiffness in parts of the structures' own from which on a joint is as good as rigid: a search may have lost it there.
 const RIGID: f64 = 1e4;
 
-/// Starts of each kind that are followed before those beside the errors of the lowest search.
+/// Starts of each kind that are followed before those beside the errors of the lowest search; and where something else is known to
+/// be wrong.
 const AT_FIRST: usize = 4;
+const LIKELY: usize = 2;
 
 /// Minima that noise explains at the lines of the search and not at those of the estimate, after which no other is looked for.
 const MOST_CHECKED: usize = 6;
@@ -68,7 +70,11 @@ pub(crate) fn together(
         ]
     });
     let mut tries = tries.map(|kinds| kinds.into_iter().flatten());
-    if !searches.follow(tries.by_ref().take(AT_FIRST).flatten()) {
+    let at_first = match extent {
+        Extent::Likely => LIKELY,
+        Extent::First | Extent::All => AT_FIRST,
+    };
+    if !searches.follow(tries.by_ref().take(at_first).flatten()) {
         if extent == Extent::First {
             return Ok(None);
         }

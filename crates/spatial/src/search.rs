@@ -1,5 +1,7 @@
 //! The joints alone, searched from several starts: some lead to other minima.
 
+use nalgebra::DVector;
+
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::Deviations;
@@ -28,6 +30,8 @@ const FOLLOWED: usize = 3;
 
 /// Standard deviations of χ² up to which a minimum above the lowest explains the functions, too, where they may have other joints.
 const RIVALS: f64 = 6.0;
+/// Stiffnesses of other joints are elsewhere, in parts of themselves.
+const ELSEWHERE: f64 = 0.05;
 
 /// What searches from several starts came to.
 pub(crate) struct Searched {
@@ -108,7 +112,8 @@ pub(crate) fn searched(
     }
     let agreeing = agreeing(&ended, numbers);
     let least = lowest(&ended);
-    let as_good = ended.iter().filter(|fit| as_good(fit, least)).count();
+    let as_good: Vec<&Fit> = ended.iter().filter(|fit| as_good(fit, least)).collect();
+    let rivals = rivals(problem, &as_good)?;
     let is_known = ended.iter().any(is_explained)
         || match is_stated {
             true => 2 * agreeing > ended.len(),
@@ -122,8 +127,27 @@ pub(crate) fn searched(
     Ok(Searched {
         fit: best,
         starts: [tried, agreeing],
-        rivals: as_good.saturating_sub(agreeing),
+        rivals,
     })
+}
+
+/// How many of them have other stiffnesses than the lowest.
+fn rivals(problem: &Problem, as_good: &[&Fit]) -> Result<usize, SpatialError> {
+    let stiffnesses = |fit: &&Fit| {
+        let [stiffness, _] = problem.links.sought_matrices(fit.unknowns.0.as_slice())?;
+        Ok::<_, SpatialError>(stiffness.diagonal())
+    };
+    let all = as_good.iter().map(stiffnesses);
+    let all = all.collect::<Result<Vec<_>, _>>()?;
+    let costs = as_good.iter().map(|fit| fit.cost).zip(&all);
+    let Some((_, own)) = costs.min_by(|(one, _), (other, _)| one.total_cmp(other)) else {
+        return Ok(0);
+    };
+    let is_elsewhere = |other: &&DVector<f64>| {
+        let mut pairs = own.iter().zip(other.iter());
+        pairs.any(|(own, other)| (own - other).abs() > ELSEWHERE * own.abs())
+    };
+    Ok(all.iter().filter(is_elsewhere).count())
 }
 
 fn lowest(fits: &[Fit]) -> f64 {

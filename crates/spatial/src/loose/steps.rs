@@ -85,34 +85,32 @@ impl Loosened {
     }
 
     fn tightened(&self, tightness: f64) -> Option<Vec<Tightened<'_>>> {
-        let all = self.lines.iter();
-        let all = all.flat_map(|line| line.parts.iter().map(move |part| (line, part)));
-        let one = |(line, part): (&'_ Line, &'_ Part)| {
-            let tightness = tightness / part.size;
-            let (rows, count) = part.by_loads.shape();
-            let both = DMatrix::from_fn(rows + count, count, |n, m| {
-                let own = match n.checked_sub(rows) {
-                    None => part.by_loads[(n, m)],
-                    Some(n) => line.seen[(self.own[n], self.own[m])] * (tightness * self.scales[n]),
-                };
-                own / self.scales[m]
-            });
-            let [alike, unscaled] = [rows + count, count].map(|n| vec![1.0; n]);
-            let inverse = pseudo_inverse(&both, &alike, &unscaled)?;
-            let across = DMatrix::identity(rows + count, rows + count) - both * &inverse;
-            Some((tightness, inverse, across))
-        };
-        all.map(|(line, part)| {
-            let (tightness, inverse, across) = one((line, part))?;
-            Some(Tightened {
-                line,
-                part,
-                tightness,
-                inverse,
-                across,
-            })
+        let all = self.lines.iter().flat_map(|line| {
+            let parts = line.parts.iter();
+            parts.map(move |part| self.tight(line, part, tightness / part.size))
+        });
+        all.collect()
+    }
+
+    fn tight<'l>(&self, line: &'l Line, part: &'l Part, tightness: f64) -> Option<Tightened<'l>> {
+        let (rows, count) = part.by_loads.shape();
+        let both = DMatrix::from_fn(rows + count, count, |n, m| {
+            let own = match n.checked_sub(rows) {
+                None => part.by_loads[(n, m)],
+                Some(n) => line.seen[(self.own[n], self.own[m])] * (tightness * self.scales[n]),
+            };
+            own / self.scales[m]
+        });
+        let [alike, unscaled] = [rows + count, count].map(|n| vec![1.0; n]);
+        let inverse = pseudo_inverse(&both, &alike, &unscaled)?;
+        let across = DMatrix::identity(rows + count, rows + count) - both * &inverse;
+        Some(Tightened {
+            line,
+            part,
+            tightness,
+            inverse,
+            across,
         })
-        .collect()
     }
 
     fn asked(&self, part: &Tightened<'_>, joints: &[DMatrix<f64>; 2]) -> Option<Asked> {

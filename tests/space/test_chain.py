@@ -116,15 +116,18 @@ def test_two_bolts_are_found_by_fewer_sensors_than_they_have_motions(run, tmp_pa
 
 
 def test_a_bolt_is_found_by_one_triaxial_sensor_and_three_impacts(run, tmp_path):
-    """Nine functions, three rows of them for the loads in six motions."""
+    """Nine functions, three rows of them for the loads in six motions. The r.m.s. of 5 × 10 errors is 1 ± 0.1; by hand, 40 tests
+    had 0.95."""
     joint = bolt(6e7, 2e7, 4e3, 2.7e3), bolt(240, 80, 0.016, 0.011)
-    model = 'model = "bolt"\nlength = 0.03'
-    Chain([joint]).write(tmp_path, FREQUENCIES, [202], [102], [model], noise=1e-3, rng=np.random.default_rng(4))
-    found = identified(run, tmp_path)
-    assert apart(found["joint_file"]["joint"]["stiffness"], joint[0]) < 2e-2
     truth = [matrix[place] for matrix in joint for place in ((0, 0), (2, 2), (3, 3), (5, 5), (0, 4))]
-    errors = [(u["free"] - value) / u["standard_deviation"] for u, value in zip(found["unknowns"], truth)]
-    assert len(errors) == 10 and np.abs(errors).max() < 3.5, errors
+    errors = []
+    for draw in range(5):
+        rng = np.random.default_rng(900 + draw)
+        Chain([joint]).write(tmp_path, FREQUENCIES, [202], [102], ['model = "bolt"\nlength = 0.03'], noise=1e-3, rng=rng)
+        found = identified(run, tmp_path)
+        assert apart(found["joint_file"]["joint"]["stiffness"], joint[0]) < 2e-2
+        errors.append([(u["free"] - value) / u["standard_deviation"] for u, value in zip(found["unknowns"], truth, strict=True)])
+    assert 0.7 < np.sqrt(np.mean(np.square(errors))) < 1.3, errors
 
 
 def test_other_joints_that_explain_the_functions_as_well_are_told(run, tmp_path):

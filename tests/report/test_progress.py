@@ -80,7 +80,7 @@ def large(program, demo, tmp_path_factory):
 @pytest.mark.long
 def test_a_terminal_sees_how_much_of_a_large_file_is_read(large, demo):
     seen, text = seen_by_a_terminal(large)
-    parts = re.findall(r"assembly.uff \[(#*)(-*)\] ([\d.]+) (k?M?G?B) of 50\d.\d* MB, \S+ left", text)
+    parts = re.findall(r"assembly.uff \[(#*)(-*)\] ([\d.]+) (k?M?G?B) of 50\d\.\d* MB, \S+ left", text)
     assert len(parts) > 3
     sizes = [float(size) * BYTES[unit] for _, _, size, unit in parts]
     # The file is read for its functions, then for its hash.

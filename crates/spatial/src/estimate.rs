@@ -17,7 +17,7 @@ use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::richer::{Richer, richer};
-use crate::search::{BY_CHANCE, Extent, SEARCHED, searched};
+use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, searched};
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
 
@@ -66,6 +66,8 @@ pub(crate) struct Found {
     pub(crate) joint: Refined,
     /// Starts that were tried, and that agree.
     pub(crate) starts: [usize; 2],
+    /// Other joints that explain the functions as well.
+    pub(crate) rivals: usize,
     /// That the joint is not what its model says.
     pub(crate) richer: Option<Richer>,
     /// What further numbers would explain; of none where nothing is known of that.
@@ -81,28 +83,27 @@ pub(crate) enum Begin {
 }
 
 /// Where an estimate goes on from, and the searches that led there.
-pub(crate) struct Begun {
-    best: Fit,
-    starts: [usize; 2],
-}
+pub(crate) struct Begun(Searched);
 
 impl Found {
     fn begun(self) -> Begun {
-        Begun {
-            best: self.best,
+        Begun(Searched {
+            fit: self.best,
             starts: self.starts,
-        }
+            rivals: self.rivals,
+        })
     }
 
     /// With errors of hits that it does not have yet.
     pub(crate) fn for_hits_anew(&self, before: &Problem, anew: &Problem) -> Begun {
-        Begun {
-            best: Fit {
+        Begun(Searched {
+            fit: Fit {
                 unknowns: anew.unknowns_with_hits(before, &self.best.unknowns),
                 ..self.best
             },
             starts: self.starts,
-        }
+            rivals: self.rivals,
+        })
     }
 }
 
@@ -168,13 +169,12 @@ impl SpatialStudy {
             (true, _) => searched_beside(problem, &level, self.noise, extent)?,
             (false, 0) => {
                 let own = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
-                let mut found = own.fit.on(problem, &level)?;
-                found.has_converged &= own.rivals == 0;
-                Some((found, own.starts))
+                let fit = own.fit.on(problem, &level)?;
+                Some(Searched { fit, ..own })
             }
             (false, _) => together(problem, &level, is_stated, extent)?,
         };
-        Ok(own.map(|(best, starts)| Begun { best, starts }))
+        Ok(own.map(Begun))
     }
 
     /// The level of each function's noise, as far as it is known before anything was found.
@@ -199,7 +199,11 @@ impl SpatialStudy {
         let errors = problem.error_count();
         let mut level = self.first_level(rms);
         let is_stated = matches!(self.level, Level::Relative(_));
-        let Begun { mut best, starts } = begun;
+        let Begun(Searched {
+            fit: mut best,
+            starts,
+            rivals,
+        }) = begun;
         let mut estimated = problem.clone();
         if errors > 0 {
             // where nothing was found, there is nothing to be told better
@@ -258,6 +262,7 @@ impl SpatialStudy {
             estimated,
             shown: exact,
             starts,
+            rivals,
         })
     }
 
@@ -293,7 +298,11 @@ impl SpatialStudy {
         let problem = &self.problem;
         let level = self.first_level(rms);
         let noise = self.noise;
-        let Begun { best, starts } = begun;
+        let Begun(Searched {
+            fit: best,
+            starts,
+            rivals,
+        }) = begun;
         let mut has_converged = best.has_converged;
         let mut unknowns = best.unknowns;
         // joint and set-up at more lines
@@ -352,6 +361,7 @@ impl SpatialStudy {
             information,
             shown,
             starts,
+            rivals,
             richer,
             further: Vec::new(),
         })

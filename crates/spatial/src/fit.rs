@@ -46,6 +46,7 @@ const BENT_MOST: f64 = 0.375;
 const DAMPING_MAX: f64 = 1e12;
 
 /// Where a search has come to.
+#[derive(Clone)]
 pub(crate) struct Fit {
     pub(crate) unknowns: Unknowns,
     pub(crate) cost: f64,

@@ -47,6 +47,7 @@ mod problem;
 mod reasons;
 mod richer;
 mod rigid;
+mod rivals;
 #[cfg(test)]
 mod samples;
 mod search;

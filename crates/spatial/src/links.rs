@@ -144,6 +144,17 @@ impl Links {
         Ok(all)
     }
 
+    /// Which of the unknowns are stiffnesses of one motion.
+    pub(crate) fn stiffnesses(&self) -> Vec<usize> {
+        let of = |one: &Sought<'_>| {
+            let first = one.first;
+            let entries = one.model.entries().into_iter().enumerate();
+            let own = entries.filter(|(_, entry)| entry.row == entry.column);
+            own.map(move |(n, _)| first + n).collect::<Vec<_>>()
+        };
+        self.sought().iter().flat_map(of).collect()
+    }
+
     /// What couples the motions of each unknown at most: √(k_ii k_jj).
     pub(crate) fn sizes(&self, values: &[f64]) -> Result<Vec<f64>, SpaceError> {
         let mut sizes = Vec::new();

@@ -45,6 +45,7 @@ impl SpatialStudy {
             shown,
             joint: alone,
             starts,
+            rivals,
             richer,
             further,
         } = found;
@@ -120,6 +121,7 @@ impl SpatialStudy {
         result.warnings.extend(lossy::warning(further));
         result.warnings.extend(massive::warning(further));
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
+        result.reasons_against.extend(reasons::of_rivals(*rivals));
         let of_energy = match lossy::is_lossy(further) {
             true => reasons::of_lossy_energy(squares_from_free, count),
             false => reasons::of_energy(squares_from_free, count),

@@ -27,6 +27,14 @@ pub(crate) fn over_few_lines<T: Send, E: Send>(
     in_pieces(lines, FEW, work)
 }
 
+/// Work on one after the other of a few things that take long; the results in their order.
+pub(crate) fn over_each<'a, T: Sync, R: Send>(
+    all: &'a [T],
+    work: impl Fn(&'a T) -> R + Sync,
+) -> Vec<R> {
+    all.par_iter().map(&work).collect()
+}
+
 fn in_pieces<T: Send, E: Send>(
     lines: usize,
     length: usize,

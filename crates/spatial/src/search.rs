@@ -1,11 +1,10 @@
 //! The joints alone, searched from several starts: some lead to other minima.
 
-use nalgebra::DVector;
-
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
-use crate::normal::Deviations;
+use crate::normal::{Deviations, Normal};
 use crate::problem::Problem;
+use crate::rivals::{as_good, rivals};
 use crate::starts::{Starts, starts};
 
 /// Lines that are searched from several starts; all are used from where these lead.
@@ -27,11 +26,6 @@ const HOPELESS: f64 = 0.2;
 
 /// Searches that crept far above what noise explains and are followed to the end, the lowest ones, where none was better.
 const FOLLOWED: usize = 3;
-
-/// Standard deviations of χ² up to which a minimum above the lowest explains the functions, too, where they may have other joints.
-const RIVALS: f64 = 6.0;
-/// Stiffnesses of other joints are elsewhere, in parts of themselves.
-const ELSEWHERE: f64 = 0.05;
 
 /// What searches from several starts came to.
 pub(crate) struct Searched {
@@ -96,12 +90,10 @@ pub(crate) fn searched(
             break;
         }
     }
-    let as_good = |fit: &Fit, lowest: f64| {
-        in_doubt > 0 && fit.cost <= lowest * (1.0 + RIVALS * (2.0 / numbers).sqrt())
-    };
+    let is_as_good = |fit: &Fit, lowest: f64| in_doubt > 0 && fit.cost <= as_good(lowest, numbers);
     // one that creeps may be on its way to the lowest
     let least = lowest(&ended).min(lowest(&crept));
-    for fit in crept.extract_if(.., |fit| as_good(fit, least)) {
+    for fit in crept.extract_if(.., |fit| is_as_good(fit, least)) {
         ended.extend(Fit::from(problem, fit.unknowns, level));
     }
     if !ended.iter().any(is_explained) {
@@ -111,9 +103,19 @@ pub(crate) fn searched(
         }
     }
     let agreeing = agreeing(&ended, numbers);
-    let least = lowest(&ended);
-    let as_good: Vec<&Fit> = ended.iter().filter(|fit| as_good(fit, least)).collect();
-    let rivals = rivals(problem, &as_good)?;
+    let rivals = match in_doubt {
+        0 => 0,
+        _ => rivals(problem, &ended, as_good(lowest(&ended), numbers), |best| {
+            // without a stated level the residuals say it
+            let own = if is_stated {
+                1.0
+            } else {
+                (best.cost / numbers).sqrt()
+            };
+            let level = level.iter().map(|level| own * level).collect();
+            Ok(Normal::of(problem, &best.unknowns, &level)?.information)
+        })?,
+    };
     let is_known = ended.iter().any(is_explained)
         || match is_stated {
             true => 2 * agreeing > ended.len(),
@@ -129,25 +131,6 @@ pub(crate) fn searched(
         starts: [tried, agreeing],
         rivals,
     })
-}
-
-/// How many of them have other stiffnesses than the lowest.
-fn rivals(problem: &Problem, as_good: &[&Fit]) -> Result<usize, SpatialError> {
-    let stiffnesses = |fit: &&Fit| {
-        let [stiffness, _] = problem.links.sought_matrices(fit.unknowns.0.as_slice())?;
-        Ok::<_, SpatialError>(stiffness.diagonal())
-    };
-    let all = as_good.iter().map(stiffnesses);
-    let all = all.collect::<Result<Vec<_>, _>>()?;
-    let costs = as_good.iter().map(|fit| fit.cost).zip(&all);
-    let Some((_, own)) = costs.min_by(|(one, _), (other, _)| one.total_cmp(other)) else {
-        return Ok(0);
-    };
-    let is_elsewhere = |other: &&DVector<f64>| {
-        let mut pairs = own.iter().zip(other.iter());
-        pairs.any(|(own, other)| (own - other).abs() > ELSEWHERE * own.abs())
-    };
-    Ok(all.iter().filter(is_elsewhere).count())
 }
 
 fn lowest(fits: &[Fit]) -> f64 {

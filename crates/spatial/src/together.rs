@@ -4,13 +4,18 @@
 //! the noise is taken as large as the residuals at first, and let down as they shrink: the errors that matter most come first, and
 //! each step begins near its end. Starts are those beside the errors that each structure tells by itself, and those without
 //! errors: where one kind leads astray, the other one often does not.
+//!
+//! Where the functions do not reach all motions of the joint, they may have other joints as well, and several searches agree on the
+//! wrong one. Only χ² tells them apart then, so that all of the first starts are followed unless noise clearly explains one.
 
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
-use crate::normal::{Deviations, cost, squares_of_errors};
+use crate::normal::{Deviations, Normal, cost, squares_of_errors};
+use crate::parallel::over_each;
 use crate::problem::{Problem, Unknowns};
-use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, agreeing_with};
-use crate::starts::starts;
+use crate::rivals::{as_good, rivals};
+use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with};
+use crate::starts::{Starts, starts};
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
 const LINES: usize = 12;
@@ -43,23 +48,33 @@ const RIGID: f64 = 1e4;
 const AT_FIRST: usize = 4;
 const LIKELY: usize = 2;
 
+/// Likewise of those that are compared, where the functions may have other joints: beside errors of the set-up, and alone.
+const COMPARED: [usize; 2] = [5, 2];
+
+/// Standard deviations of χ² above what is expected of it, up to which noise clearly explains a joint, though there may be others.
+const CLEARLY: f64 = 1.0;
+
+/// How far χ² of other joints is above that of one that noise clearly explains where they are out of the question: five deviations.
+const DECISIVE: f64 = 25.0;
+
 /// Minima that noise explains at the lines of the search and not at those of the estimate, after which no other is looked for.
 const MOST_CHECKED: usize = 6;
 
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, and how many came to the same
 /// minimum. None follows one that noise explains at all these lines, where its level is stated, one that leaves nothing, or two that
-/// agree: on what noise explains at the lines of the searches, or is not far above it. `None` where the likely starts alone were to be
-/// followed, and came to nothing.
+/// agree: on what noise explains at the lines of the searches, or is not far above it. Where there may be other joints, none of the
+/// first ones is left out but after one that noise clearly explains. `None` where the likely starts alone were to be followed, and came
+/// to nothing.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
     is_stated: bool,
     extent: Extent,
-) -> Result<Option<(Fit, [usize; 2])>, SpatialError> {
-    let lines = problem.thinned(LINES_MAX);
+) -> Result<Option<Searched>, SpatialError> {
     let likely = problem.likely_errors()?;
     let mut searches = Searches::new(problem, &likely, level, is_stated)?;
-    let beside = searches.beside(&likely)?;
+    let (beside, is_in_doubt) = searches.beside(&likely)?;
+    searches.is_in_doubt = is_in_doubt;
     let alone = searches.lowest_first(starts(&searches.thin, level)?.all);
     let tries = (0..beside.len().max(alone.len())).map(|i| {
         let of = |way, starts: &[Start]| starts.get(i).map(|start| (way, start.clone()));
@@ -74,41 +89,42 @@ pub(crate) fn together(
         Extent::Likely => LIKELY,
         Extent::First | Extent::All => AT_FIRST,
     };
-    if !searches.follow(tries.by_ref().take(at_first).flatten()) {
+    let is_enough = match is_in_doubt {
+        true => searches.compare(compared(&beside, &alone)),
+        false => searches.follow(tries.by_ref().take(at_first).flatten()),
+    };
+    if !is_enough {
         if extent == Extent::First {
             return Ok(None);
         }
         let is_all = extent == Extent::All;
         // where the joint is wrong, the errors of the set-up need not be
         let again = match &searches.best {
-            Some(best) if is_all => searches.beside(&searches.thin.errors(&best.unknowns))?,
+            Some(best) if is_all => searches.beside(&searches.thin.errors(&best.unknowns))?.0,
             _ => Vec::new(),
         };
         let again = again.into_iter().take(AT_FIRST);
-        let again = again.flat_map(|start| [(Way::Straight, start.clone()), (Way::Curved, start)]);
+        let mut again =
+            again.flat_map(|start| [(Way::Straight, start.clone()), (Way::Curved, start)]);
         let _ = !is_all
-            || searches.follow(again)
+            || match is_in_doubt {
+                true => searches.compare(again.step_by(2).collect()),
+                false => searches.follow(again.by_ref()),
+            }
+            || is_in_doubt
             || searches.ends_within_noise()
             || searches.is_hopeless()
             || searches.follow(tries.flatten());
     }
-    // a minimum that nothing confirms may be another one
-    let is_confirmed = searches.is_confirmed();
-    let agreeing = searches.agreeing();
-    if let Some(mut fit) = searches.lowest_checked() {
-        fit.has_converged &= is_confirmed && !searches.is_rigid(&fit);
-        return Ok(Some((fit, [searches.tried, agreeing])));
-    }
-    let best = searches.best.take().ok_or(SpatialError::NoStart)?;
-    // what nothing explains has no bottom that is worth the way there
-    let effort = match lags(&searches.thin, best.cost) && !is_confirmed {
-        true => Effort::Coarse,
-        false => Effort::Full,
-    };
-    let mut fit = Fit::of(&lines, best.unknowns, level, effort)?;
-    // more lines may lead where a motion gets lost
-    fit.has_converged &= is_confirmed && !(is_stated && searches.is_rigid(&fit));
-    Ok(Some((fit, [searches.tried, agreeing])))
+    searches.ended().map(Some)
+}
+
+/// What is compared where the functions may have other joints: from each start in one way.
+fn compared(beside: &[Start], alone: &[Start]) -> Vec<(Way, Start)> {
+    let ways = [Way::Curved, Way::Straight].into_iter().cycle();
+    let beside = ways.zip(beside.iter().cloned()).take(COMPARED[0]);
+    let alone = alone.iter().cloned().map(|start| (Way::Straight, start));
+    beside.chain(alone.take(COMPARED[1])).collect()
 }
 
 /// Along curves on which the functions are nearly straight, or straight on: each finds what the other one misses.
@@ -126,6 +142,8 @@ struct Searches<'p> {
     problem: &'p Problem,
     level: &'p Deviations,
     is_stated: bool,
+    /// Whether the functions may have other joints as well.
+    is_in_doubt: bool,
     /// The lines of the searches, to be followed straight on …
     thin: Problem,
     /// … and along curves.
@@ -137,6 +155,8 @@ struct Searches<'p> {
     best: Option<Fit>,
     /// At the lines of the estimate, what noise of a stated level explains at those of the searches.
     checked: Vec<Fit>,
+    /// Squares at the lines of the searches of those among these that are compared.
+    compared: Vec<f64>,
     tried: usize,
     agreeing: usize,
 }
@@ -157,6 +177,7 @@ impl<'p> Searches<'p> {
             problem,
             level,
             is_stated,
+            is_in_doubt: false,
             curved: Problem {
                 balance: Some(balance.clone()),
                 ..thin.clone()
@@ -166,16 +187,18 @@ impl<'p> Searches<'p> {
             balance,
             best: None,
             checked: Vec::new(),
+            compared: Vec::new(),
             tried: 0,
             agreeing: 0,
         })
     }
 
-    /// Starts beside these errors of the set-up, of more lines than the searches have.
-    fn beside(&self, errors: &[Vec<f64>; 2]) -> Result<Vec<Start>, SpatialError> {
+    /// Starts beside these errors of the set-up, of more lines than the searches have; and whether they are in doubt.
+    fn beside(&self, errors: &[Vec<f64>; 2]) -> Result<(Vec<Start>, bool), SpatialError> {
         let known = self.problem.thinned(LINES_MAX).with_errors(errors)?;
-        let joints = starts(&known, self.level)?.all;
-        Ok(self.lowest_first(joints.map(|joint| joint.beside(errors))))
+        let Starts { all, in_doubt } = starts(&known, self.level)?;
+        let beside = self.lowest_first(all.map(|joint| joint.beside(errors)));
+        Ok((beside, in_doubt > 0))
     }
 
     fn lowest_first(&self, starts: impl Iterator<Item = Unknowns>) -> Vec<Start> {
@@ -190,15 +213,10 @@ impl<'p> Searches<'p> {
     fn follow(&mut self, tries: impl Iterator<Item = (Way, Start)>) -> bool {
         for (way, (residual, start)) in tries {
             self.tried += 1;
-            let problem = match way {
-                Way::Curved => &self.curved,
-                Way::Straight => &self.thin,
-            };
-            let Ok(fit) = let_down(problem, start, residual, self.level) else {
+            let Some(fit) = self.let_down(way, residual, start) else {
                 continue;
             };
-            let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-            self.agreeing = agreeing_with(self.agreeing, lowest, fit.cost);
+            let lowest = self.came_to(&fit);
             // noise explains other minima as well at a few lines
             if self.is_stated && self.explains(&fit) {
                 let start = fit.unknowns.clone();
@@ -227,6 +245,64 @@ impl<'p> Searches<'p> {
             }
         }
         false
+    }
+
+    /// Follows all, unless noise clearly explains the first; says whether noise explains the lowest, or several agree where its level
+    /// is not stated.
+    fn compare(&mut self, tries: Vec<(Way, Start)>) -> bool {
+        let (first, others) = tries.split_at(tries.len().min(1));
+        for tries in [first, others] {
+            let ended = over_each(tries, |(way, (residual, start))| {
+                self.let_down(*way, *residual, start.clone())
+            });
+            self.tried += tries.len();
+            let ended: Vec<Fit> = ended.into_iter().flatten().collect();
+            for fit in &ended {
+                if fit.cost < self.came_to(fit) {
+                    self.best = Some(fit.clone());
+                }
+            }
+            let others = self.others_among(&ended);
+            let at_more = over_each(&others, |fit| {
+                Fit::of(&self.lines, fit.unknowns.clone(), self.level, Effort::Near)
+            });
+            self.checked.extend(at_more.into_iter().flatten());
+            if self.is_clear() {
+                return true;
+            }
+        }
+        self.is_confirmed()
+    }
+
+    /// Those that are not far above the lowest, and of which none came to where another one did.
+    fn others_among<'f>(&mut self, ended: &'f [Fit]) -> Vec<&'f Fit> {
+        let Some(lowest) = self.best.as_ref().map(|best| best.cost) else {
+            return Vec::new();
+        };
+        let most = as_good(lowest, self.thin.numbers() as f64);
+        let mut others = Vec::new();
+        for fit in ended.iter().filter(|fit| fit.cost <= most) {
+            if !self.compared.iter().any(|&cost| is_same(cost, fit.cost)) {
+                self.compared.push(fit.cost);
+                others.push(fit);
+            }
+        }
+        others
+    }
+
+    fn let_down(&self, way: Way, residual: f64, start: Unknowns) -> Option<Fit> {
+        let problem = match way {
+            Way::Curved => &self.curved,
+            Way::Straight => &self.thin,
+        };
+        let_down(problem, start, residual, self.level).ok()
+    }
+
+    /// How low the searches came before this one.
+    fn came_to(&mut self, fit: &Fit) -> f64 {
+        let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
+        self.agreeing = agreeing_with(self.agreeing, lowest, fit.cost);
+        lowest
     }
 
     /// Whether noise and budget explain what is left, and no motion of the joint got lost on the way.
@@ -267,39 +343,120 @@ impl<'p> Searches<'p> {
 
     /// Whether noise explains the latest of them at the lines of the estimate, too.
     fn is_checked(&self) -> bool {
-        let numbers = self.lines.numbers() as f64;
-        // χ² of ν numbers is ν ± √(2 ν)
-        let explained = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
         let latest = self.checked.last();
-        latest.is_some_and(|fit| fit.cost < explained && !self.is_rigid(fit))
+        latest.is_some_and(|fit| {
+            fit.cost < self.by_chance(self.lines.numbers(), BY_CHANCE) && !self.is_rigid(fit)
+        })
     }
 
-    fn lowest_checked(&mut self) -> Option<Fit> {
-        let all = self.checked.iter().enumerate();
-        let lowest = all.min_by(|(_, one), (_, other)| one.cost.total_cmp(&other.cost));
-        let (place, _) = lowest?;
-        Some(self.checked.swap_remove(place))
+    /// Whether noise clearly explains the lowest of them, or nothing is left.
+    fn is_clear(&self) -> bool {
+        let leaves_nothing = |fit: &Fit| fit.cost < NOTHING * self.lines.numbers() as f64;
+        self.lowest_checked().is_some_and(|fit| {
+            leaves_nothing(fit) || self.is_stated && self.is_left_by(fit, CLEARLY)
+        })
+    }
+
+    /// Whether chance explains what this one of them leaves, beside what its unknowns took.
+    fn is_left_by(&self, fit: &Fit, deviations: f64) -> bool {
+        let free = self.lines.numbers() - self.lines.joint_count();
+        fit.cost < self.by_chance(free, deviations) && !self.is_rigid(fit)
+    }
+
+    fn by_chance(&self, numbers: usize, deviations: f64) -> f64 {
+        // χ² of ν numbers is ν ± √(2 ν)
+        numbers as f64 + deviations * (2.0 * numbers as f64).sqrt()
+    }
+
+    fn lowest_checked(&self) -> Option<&Fit> {
+        let all = self.checked.iter();
+        all.min_by(|one, other| one.cost.total_cmp(&other.cost))
     }
 
     /// Searches that came to the lowest minimum.
     fn agreeing(&self) -> usize {
-        let costs = self.checked.iter().map(|fit| fit.cost);
-        let lowest = costs.clone().fold(f64::INFINITY, f64::min);
-        match self.checked.is_empty() {
-            true => self.agreeing,
-            false => costs
-                .filter(|cost| *cost <= lowest * (1.0 + AS_LOW_BESIDE_ERRORS))
-                .count(),
+        match self.lowest_checked() {
+            Some(lowest) if !self.is_in_doubt => {
+                let costs = self.checked.iter().map(|fit| fit.cost);
+                let agree =
+                    costs.filter(|cost| *cost <= lowest.cost * (1.0 + AS_LOW_BESIDE_ERRORS));
+                agree.count()
+            }
+            _ => self.agreeing,
         }
     }
 
     fn is_confirmed(&self) -> bool {
-        if !self.checked.is_empty() {
-            return self.is_checked() || self.agreeing() > 1;
+        match self.lowest_checked() {
+            // several searches agree on wrong ones, too
+            Some(lowest) if self.is_in_doubt && self.is_stated => {
+                self.is_left_by(lowest, BY_CHANCE)
+            }
+            Some(_) => self.is_checked() || self.agreeing() > 1,
+            None => {
+                let best = self.best.as_ref();
+                best.is_some_and(|best| self.agree(best) || self.explains(best))
+            }
         }
-        let best = self.best.as_ref();
-        best.is_some_and(|best| self.agree(best) || self.explains(best))
     }
+
+    fn rivals(&self) -> Result<usize, SpatialError> {
+        if !self.is_in_doubt {
+            return Ok(0);
+        }
+        let lowest = self.lowest_checked().map_or(0.0, |fit| fit.cost);
+        let most = match self.is_clear() && self.is_stated {
+            true => lowest + DECISIVE,
+            false => as_good(lowest, self.lines.numbers() as f64),
+        };
+        // one that creeps may be on its way to the lowest
+        let ended = self.checked.iter().filter(|fit| fit.has_converged);
+        let ended: Vec<Fit> = ended.cloned().collect();
+        rivals(&self.lines, &ended, most, |best| {
+            Ok(Normal::of(&self.lines, &best.unknowns, self.level)?.information)
+        })
+    }
+
+    /// The lowest of the searches.
+    fn ended(mut self) -> Result<Searched, SpatialError> {
+        let rivals = self.rivals()?;
+        let starts = [self.tried, self.agreeing()];
+        // a minimum that nothing confirms may be another one
+        let is_confirmed = self.is_confirmed();
+        let (found, is_beyond_noise) = match self.lowest_checked() {
+            Some(lowest) => (lowest.clone(), false),
+            None => {
+                let best = self.best.take().ok_or(SpatialError::NoStart)?;
+                let lags = lags(&self.thin, best.cost);
+                (best, lags)
+            }
+        };
+        let is_at_end = !self.is_in_doubt && !self.checked.is_empty();
+        let mut fit = match is_at_end {
+            true => found,
+            false => {
+                // what nothing explains has no bottom that is worth the way there
+                let effort = match is_beyond_noise && !is_confirmed {
+                    true => Effort::Coarse,
+                    false => Effort::Full,
+                };
+                Fit::of(&self.lines, found.unknowns, self.level, effort)?
+            }
+        };
+        // more lines may lead where a motion gets lost
+        let is_lost = (is_at_end || self.is_stated) && self.is_rigid(&fit);
+        fit.has_converged &= is_confirmed && !is_lost;
+        Ok(Searched {
+            fit,
+            starts,
+            rivals,
+        })
+    }
+}
+
+/// Whether two searches beside errors of the set-up came to the same minimum.
+fn is_same(one: f64, other: f64) -> bool {
+    (one - other).abs() <= AS_LOW_BESIDE_ERRORS * one.min(other)
 }
 
 /// Whether squares are many more than noise leaves.

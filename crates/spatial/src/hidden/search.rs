@@ -6,7 +6,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{BY_CHANCE, Extent, SEARCHED, agreeing_with};
+use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, agreeing_with};
 use crate::starts::starts;
 use crate::together::LINES_MAX;
 
@@ -43,7 +43,7 @@ pub(crate) fn searched_beside(
     level: &Deviations,
     noise: [f64; 2],
     extent: Extent,
-) -> Result<Option<(Fit, [usize; 2])>, SpatialError> {
+) -> Result<Option<Searched>, SpatialError> {
     let given = Given {
         problem,
         level,
@@ -215,7 +215,7 @@ impl<'p> Searches<'p> {
             && squares_of_errors(self.given.problem, &fit.unknowns) <= EXPECTED * errors
     }
 
-    fn ended(mut self) -> Result<(Fit, [usize; 2]), SpatialError> {
+    fn ended(mut self) -> Result<Searched, SpatialError> {
         let mut best = self.best.take().ok_or(SpatialError::NoStart)?;
         match self.held.take() {
             Some(unknowns) => {
@@ -227,7 +227,11 @@ impl<'p> Searches<'p> {
                 best.has_converged &= is_known || 2 * self.agreeing > self.tried;
             }
         }
-        Ok((best, [self.tried, self.agreeing]))
+        Ok(Searched {
+            fit: best,
+            starts: [self.tried, self.agreeing],
+            rivals: 0,
+        })
     }
 }
 

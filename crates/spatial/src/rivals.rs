@@ -1,0 +1,59 @@
+//! Other joints that explain the functions as well as the one that was found.
+//!
+//! Where the functions say less than all motions of the joints, searches end in several minima. Which of them is the joint is not
+//! known then, and the deviations of each say nothing of the others.
+
+use nalgebra::DMatrix;
+
+use crate::error::SpatialError;
+use crate::fit::{Fit, covariance};
+use crate::problem::Problem;
+
+/// Standard deviations of χ² up to which a minimum above the lowest explains the functions, too.
+const AS_GOOD: f64 = 6.0;
+
+/// Stiffnesses of other joints are elsewhere, in parts of themselves, and in their deviations.
+const ELSEWHERE: f64 = 0.05;
+const BEYOND: f64 = 2.0;
+
+/// Squares of so many numbers up to which they are as good as the lowest, wherever that is: it need not be the joint's.
+pub(crate) fn as_good(lowest: f64, numbers: f64) -> f64 {
+    // χ² of ν numbers is ν ± √(2 ν)
+    lowest * (1.0 + AS_GOOD * (2.0 / numbers).sqrt())
+}
+
+/// How many searches came to joints with other stiffnesses than the lowest, with squares up to these; what is known of the lowest is
+/// asked where there are others.
+pub(crate) fn rivals(
+    problem: &Problem,
+    ended: &[Fit],
+    most: f64,
+    information: impl FnOnce(&Fit) -> Result<DMatrix<f64>, SpatialError>,
+) -> Result<usize, SpatialError> {
+    let Some(best) = (ended.iter()).min_by(|one, other| one.cost.total_cmp(&other.cost)) else {
+        return Ok(0);
+    };
+    let stiffnesses = problem.links.stiffnesses();
+    let away = |fit: &Fit, place: usize| (fit.unknowns.0[place] - best.unknowns.0[place]).abs();
+    let is_elsewhere =
+        |fit: &&Fit, place: usize| away(fit, place) > ELSEWHERE * best.unknowns.0[place].abs();
+    let others = ended.iter().filter(|fit| fit.cost <= most);
+    let others: Vec<&Fit> = others
+        .filter(|fit| stiffnesses.iter().any(|&place| is_elsewhere(fit, place)))
+        .collect();
+    if others.is_empty() {
+        return Ok(0);
+    }
+    let covariance = covariance(&information(best)?);
+    let is_beyond = |fit: &&Fit, place: usize| {
+        let known = covariance
+            .as_ref()
+            .map(|known| known[(place, place)].sqrt());
+        known.is_none_or(|deviation| away(fit, place) > BEYOND * deviation)
+    };
+    let rivals = others.into_iter().filter(|fit| {
+        let mut places = stiffnesses.iter();
+        places.any(|&place| is_elsewhere(fit, place) && is_beyond(fit, place))
+    });
+    Ok(rivals.count())
+}

@@ -46,6 +46,8 @@ pub(crate) struct Refined {
     /// χ², and of how many numbers.
     pub(crate) squares: f64,
     pub(crate) numbers: usize,
+    /// What the joint leaves in the assembly, by itself: χ² over degrees of freedom, where the substructures have noise.
+    pub(crate) left_in_assembly: Option<f64>,
     /// Lines that took part.
     pub(crate) kept: Vec<usize>,
     /// R.m.s. over these lines of what the substructures' noise moves, in parts of the functions.
@@ -249,6 +251,7 @@ impl SpatialStudy {
                     .ok_or_else(|| undetermined(best.has_converged, starts))?,
                 squares: cost(problem, &at, &level)?,
                 numbers: problem.numbers(),
+                left_in_assembly: None,
                 kept: (0..problem.frequency_hz.len()).collect(),
                 moved: 0.0,
                 has_converged: best.has_converged,
@@ -351,6 +354,7 @@ impl SpatialStudy {
                     .ok_or_else(|| undetermined(has_converged, starts))?,
                 squares: normal.cost + squares_of_errors(problem, &best.unknowns),
                 numbers: squares.numbers(),
+                left_in_assembly: Some(squares.left_in_assembly(&joint, normal.cost)?),
                 moved: (moved / kept.len().max(1) as f64).sqrt(),
                 kept,
                 has_converged,

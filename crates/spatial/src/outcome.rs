@@ -76,8 +76,10 @@ impl SpatialStudy {
         let lines = alone.kept.len();
         let compared = shown.with_lines(&alone.kept);
         let freedom = (alone.numbers - count) as f64;
-        let reduced_chi_squared =
-            matches!(self.level, Level::Relative(_)).then_some(alone.squares / freedom);
+        // noise of the substructures hides what is left of fewer functions
+        let of_all = alone.squares / freedom;
+        let reduced = (alone.left_in_assembly).map_or(of_all, |left| left.max(of_all));
+        let reduced_chi_squared = matches!(self.level, Level::Relative(_)).then_some(reduced);
         let left_out = problem.frequency_hz.len() - lines;
         let mut result = SpatialIdentification {
             unknowns,

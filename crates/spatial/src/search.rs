@@ -17,6 +17,9 @@ pub(crate) const AS_LOW_BESIDE_ERRORS: f64 = 1e-3;
 /// Standard deviations of χ² up to which chance explains it.
 pub(crate) const BY_CHANCE: f64 = 3.0;
 
+/// Likewise up to which it clearly does, though there may be other joints.
+pub(crate) const CLEARLY: f64 = 1.0;
+
 /// Cost, in parts of the count of numbers, below which nothing is left that another minimum could be lower by.
 pub(crate) const NOTHING: f64 = 1e-9;
 

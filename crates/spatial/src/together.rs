@@ -14,7 +14,9 @@ use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::parallel::over_each;
 use crate::problem::{Problem, Unknowns};
 use crate::rivals::{as_good, rivals};
-use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with};
+use crate::search::{
+    AS_LOW_BESIDE_ERRORS, BY_CHANCE, CLEARLY, Extent, NOTHING, Searched, agreeing_with,
+};
 use crate::starts::{Starts, starts};
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
@@ -50,9 +52,6 @@ const LIKELY: usize = 2;
 
 /// Likewise of those that are compared, where the functions may have other joints: beside errors of the set-up, and alone.
 const COMPARED: [usize; 2] = [5, 2];
-
-/// Standard deviations of χ² above what is expected of it, up to which noise clearly explains a joint, though there may be others.
-const CLEARLY: f64 = 1.0;
 
 /// How far χ² of other joints is above that of one that noise clearly explains where they are out of the question: five deviations.
 const DECISIVE: f64 = 25.0;

@@ -9,6 +9,7 @@
 
 mod choice;
 mod follow;
+mod held;
 mod model;
 mod noise;
 mod rows;
@@ -155,6 +156,28 @@ impl<'p> Beside<'p> {
         Ok(squares_of_errors(self.problem, unknowns) + parts.iter().sum::<f64>())
     }
 
+    /// What the joint leaves of these squares, over the numbers of the assembly that are free of it: 1 where noise explains it.
+    ///
+    /// The substructures have many more numbers than joint and h. What noise leaves of them hides what the joint does, so
+    /// that it is taken away: the squares of the substructures alone, with the set-up that they were reduced with.
+    pub(crate) fn left_in_assembly(
+        &self,
+        unknowns: &Unknowns,
+        squares: f64,
+    ) -> Result<f64, SpatialError> {
+        let model = self.model(unknowns)?;
+        let parts = over_few_lines(self.measured.len(), |lines| {
+            let of = |line: usize| {
+                let computed = model.line(line, &self.measured[line])?;
+                Ok::<_, SpatialError>(2.0 * self.own_squares(line, &computed))
+            };
+            lines.map(of).sum::<Result<f64, _>>()
+        })?;
+        let alone = parts.iter().sum::<f64>() + squares_of_errors(self.problem, unknowns);
+        let free = self.problem.numbers() - self.problem.joint_count();
+        Ok((squares - alone) / free as f64)
+    }
+
     /// The substructures as they were found at these unknowns, with an exact set-up.
     pub(crate) fn found(&self, unknowns: &Unknowns) -> Result<Problem, SpatialError> {
         let model = self.model(unknowns)?;
@@ -186,13 +209,18 @@ impl<'p> Beside<'p> {
     }
 
     fn squares(&self, line: usize, computed: &Computed) -> f64 {
+        squares(&self.grids.assembly, &self.errors(line, computed))
+            + self.own_squares(line, computed)
+    }
+
+    fn own_squares(&self, line: usize, computed: &Computed) -> f64 {
         let own = [0, 1].map(|n| {
             squares(
                 &self.grids.own[n][line],
                 &self.own_errors(n, line, computed),
             )
         });
-        squares(&self.grids.assembly, &self.errors(line, computed)) + own[0] + own[1]
+        own[0] + own[1]
     }
 
     /// The numbers of h of both sides.

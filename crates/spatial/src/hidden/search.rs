@@ -2,12 +2,13 @@
 //! lines, then at more.
 
 use super::Beside;
+use super::held::AtMore;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
 use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, agreeing_with};
-use crate::starts::starts;
+use crate::starts::{Starts, starts};
 use crate::together::LINES_MAX;
 
 /// Lines that are looked at for each one of the estimate.
@@ -22,18 +23,22 @@ const PATIENCE: usize = 6;
 const LAGGING: f64 = 3.0;
 
 /// Squares over numbers that noise explains, and those of the errors of the set-up that the budget does.
-const EXPLAINED: f64 = 1.2;
+pub(super) const EXPLAINED: f64 = 1.2;
 const EXPECTED: f64 = 1.5;
 
 /// Starts that are followed before low frequencies are asked, and there.
 const AT_FIRST: usize = 2;
+
+/// Likewise where the functions may have other joints, unless noise clearly explains one.
+const COMPARED: usize = 6;
 
 /// Lines of low frequencies, one of so many; and the least of them.
 const LOW: [usize; 2] = [8, 4];
 const LOW_MIN: usize = LINES;
 
 /// The lowest of the searches at a few lines, how many starts were tried and how many came as low. None is tried after one that
-/// noise and budget explain as chance has it, or after two that agree on what is not far above.
+/// noise and budget explain as chance has it, or after two that agree on what is not far above. Where the functions may have other
+/// joints, that two agree says little: what is left has to be what noise leaves of the assembly by itself.
 ///
 /// A soft joint is seen at low frequencies alone: above, what all lines say of it is the noise of the substructures. So where the
 /// first searches come to nothing, low frequencies are searched by themselves, and all from where these lead. `None` where the likely
@@ -49,12 +54,14 @@ pub(crate) fn searched_beside(
         level,
         noise,
     };
-    let begun = given.starts()?;
+    let (begun, is_in_doubt) = given.starts()?;
     let first = begun.first().ok_or(SpatialError::NoStart)?;
     let few = given.few(first)?;
-    let mut searches = Searches::new(given, Beside::of(&few, level, noise, first)?);
+    let squares = Beside::of(&few, level, noise, first)?;
+    let mut searches = Searches::new(given, squares, is_in_doubt);
     let mut starts = searches.lowest_first(begun).into_iter();
-    if !searches.follow(starts.by_ref().take(AT_FIRST)) {
+    let at_first = if is_in_doubt { COMPARED } else { AT_FIRST };
+    if !searches.follow(starts.by_ref().take(at_first)) && searches.held.is_none() {
         let low = given.low();
         let mut of_low = low.iter().filter_map(|problem| {
             let own = Given { problem, ..given };
@@ -75,21 +82,21 @@ pub(crate) fn searched_beside(
 
 /// What is searched.
 #[derive(Clone, Copy)]
-struct Given<'p> {
-    problem: &'p Problem,
-    level: &'p Deviations,
-    noise: [f64; 2],
+pub(super) struct Given<'p> {
+    pub(super) problem: &'p Problem,
+    pub(super) level: &'p Deviations,
+    pub(super) noise: [f64; 2],
 }
 
 impl<'p> Given<'p> {
-    fn starts(&self) -> Result<Vec<Unknowns>, SpatialError> {
+    /// Starts, and whether they are in doubt.
+    fn starts(&self) -> Result<(Vec<Unknowns>, bool), SpatialError> {
         let likely = self.problem.likely_errors()?;
         let known = self.problem.thinned(SEARCHED);
         let known = known.with_errors(&likely)?.smoothed()?;
-        Ok(starts(&known, self.level)?
-            .all
-            .map(|joint| joint.beside(&likely))
-            .collect())
+        let Starts { all, in_doubt } = starts(&known, self.level)?;
+        let all = all.map(|joint| joint.beside(&likely)).collect();
+        Ok((all, in_doubt > 0))
     }
 
     /// The lines at which noise moves least, as far as the joint is known.
@@ -114,14 +121,14 @@ impl<'p> Given<'p> {
 
     /// What noise explains at these lines, if likely starts lead there.
     fn held(&self) -> Result<Option<Unknowns>, SpatialError> {
-        let begun = self.starts()?;
+        let (begun, is_in_doubt) = self.starts()?;
         let first = begun.first().ok_or(SpatialError::NoStart)?;
         let few = self.few(first)?;
         let squares = Beside::of(&few, self.level, self.noise, first)?;
-        let mut searches = Searches::new(*self, squares);
+        let mut searches = Searches::new(*self, squares, is_in_doubt);
         let starts = searches.lowest_first(begun).into_iter();
         searches.follow(starts.take(AT_FIRST));
-        Ok(searches.held)
+        Ok(searches.held.map(|held| held.unknowns))
     }
 }
 
@@ -129,9 +136,11 @@ impl<'p> Given<'p> {
 struct Searches<'p> {
     given: Given<'p>,
     squares: Beside<'p>,
+    /// Whether the functions may have other joints as well.
+    is_in_doubt: bool,
     best: Option<Fit>,
     /// What noise explains at the lines of the estimate.
-    held: Option<Unknowns>,
+    held: Option<AtMore>,
     /// Whether noise does not explain there what the lowest leaves.
     is_refuted: bool,
     tried: usize,
@@ -139,10 +148,11 @@ struct Searches<'p> {
 }
 
 impl<'p> Searches<'p> {
-    fn new(given: Given<'p>, squares: Beside<'p>) -> Self {
+    fn new(given: Given<'p>, squares: Beside<'p>, is_in_doubt: bool) -> Self {
         Self {
             given,
             squares,
+            is_in_doubt,
             best: None,
             held: None,
             is_refuted: false,
@@ -171,13 +181,15 @@ impl<'p> Searches<'p> {
             };
             let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
             self.agreeing = agreeing_with(self.agreeing, lowest, fit.cost);
+            let own = self.is_in_doubt.then(|| fit.clone());
             if fit.cost < lowest {
                 self.best = Some(fit);
                 self.is_refuted = false;
             }
             let is_enough =
                 |best: &&Fit| self.explains(best) && (best.cost < by_chance || self.agreeing > 1);
-            let enough = self.best.as_ref().filter(is_enough);
+            // the lowest of a few lines need not be that of more
+            let enough = own.as_ref().or(self.best.as_ref()).filter(is_enough);
             let enough = enough.map(|best| best.unknowns.clone());
             if let Some(unknowns) = enough {
                 if self.holds(unknowns) {
@@ -189,23 +201,17 @@ impl<'p> Searches<'p> {
         false
     }
 
-    /// Whether noise explains what these leave at the lines of the estimate, too: a few lines may say nothing of the joint. The
-    /// search is at its end there.
+    /// Whether noise clearly explains what these leave at the lines of the estimate, too. The search is at its end there.
     fn holds(&mut self, unknowns: Unknowns) -> bool {
-        let Given {
-            problem,
-            level,
-            noise,
-        } = self.given;
-        let lines = estimated(problem, level, noise, &unknowns);
-        let at_more = lines.and_then(|lines| {
-            let mut squares = Beside::of(&lines, level, noise, &unknowns)?;
-            let fit = Fit::by(&mut squares, unknowns, Effort::Coarse)?;
-            Ok((fit.cost / squares.numbers() as f64, fit.unknowns))
-        });
-        let held = at_more.ok().filter(|(left, _)| *left < EXPLAINED);
-        self.held = held.map(|(_, unknowns)| unknowns);
-        self.held.is_some()
+        let Ok(own) = AtMore::of(&self.given, unknowns, self.is_in_doubt) else {
+            return false;
+        };
+        let is_clear = own.is_clear;
+        let is_lower = self.held.as_ref().is_none_or(|held| own.left < held.left);
+        if own.is_explained && is_lower {
+            self.held = Some(own);
+        }
+        is_clear
     }
 
     /// Whether noise and budget explain what is left, or nearly so.
@@ -218,13 +224,14 @@ impl<'p> Searches<'p> {
     fn ended(mut self) -> Result<Searched, SpatialError> {
         let mut best = self.best.take().ok_or(SpatialError::NoStart)?;
         match self.held.take() {
-            Some(unknowns) => {
-                best.unknowns = unknowns;
+            Some(held) => {
+                best.unknowns = held.unknowns;
                 best.has_converged = true;
             }
             None => {
                 let is_known = self.explains(&best) && !self.is_refuted;
-                best.has_converged &= is_known || 2 * self.agreeing > self.tried;
+                let do_agree = !self.is_in_doubt && 2 * self.agreeing > self.tried;
+                best.has_converged &= is_known || do_agree;
             }
         }
         Ok(Searched {

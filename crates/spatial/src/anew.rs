@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use crate::budget::HIT_ANEW;
 use crate::error::SpatialError;
-use crate::estimate::{Begin, Found};
+use crate::estimate::Found;
 use crate::lack;
 use crate::normal::Deviations;
 use crate::problem::{Level, Problem, Unknowns};
@@ -31,31 +31,56 @@ impl SpatialStudy {
         rms: &Deviations,
         is_known_not_to_fit: bool,
     ) -> Result<(Cow<'_, Self>, Found), SpatialError> {
-        if is_known_not_to_fit {
-            let likely = self.found(rms, Begin::Searches(Extent::Likely))?;
-            return Ok((Cow::Borrowed(self), likely));
-        }
-        let of_all = || self.found(rms, Begin::Searches(Extent::All));
-        if self.problem.tolerances.is_none() || self.problem.has_hits_anew() {
-            return Ok((Cow::Borrowed(self), of_all()?));
-        }
-        let first = match self.found_at_first(rms)? {
-            Some(found) if self.is_explained(&found)? => return Ok((Cow::Borrowed(self), found)),
-            other => other,
+        let own = |found: Option<Found>| {
+            let found = found.ok_or(SpatialError::NoStart)?;
+            Ok((Cow::Borrowed(self), found))
         };
-        let mut anew = self.clone();
-        anew.problem = anew.problem.with_hits(Some(HIT_ANEW));
-        let with = match &first {
-            Some(found) if found.best.has_converged && !self.has_noise() => {
-                let begun = found.for_hits_anew(&self.problem, &anew.problem);
-                anew.found(rms, Begin::At(begun)).map(Some)
-            }
-            _ => anew.found_at_first(rms),
+        if is_known_not_to_fit {
+            return own(self.searched(rms, Extent::Likely)?);
+        }
+        if self.problem.tolerances.is_none() || self.problem.has_hits_anew() {
+            return own(self.searched(rms, Extent::Unless(&mut || false))?);
+        }
+        let anew = || {
+            let mut own = self.clone();
+            own.problem = own.problem.with_hits(Some(HIT_ANEW));
+            own
         };
         // what fails with them says nothing of what is found without
+        let explained = |anew: Self, found: Result<Option<Found>, SpatialError>| {
+            let found = found.ok().flatten()?;
+            let is_explained = matches!(anew.is_explained(&found), Ok(true));
+            is_explained.then_some((anew, found))
+        };
+        let first_of = |anew: Self| {
+            let found = anew.searched(rms, Extent::First);
+            explained(anew, found)
+        };
+        // with them, where the likely starts without them come to nothing
+        let mut asked = None;
+        let found = self.searched(
+            rms,
+            Extent::Unless(&mut || {
+                let with = first_of(anew());
+                let is_found = with.is_some();
+                asked = Some(with);
+                is_found
+            }),
+        )?;
+        let with = match (asked, &found) {
+            (Some(with), _) => with,
+            (None, Some(found)) if self.is_explained(found)? => None,
+            (None, Some(found)) if found.best.has_converged && !self.has_noise() => {
+                let anew = anew();
+                let begun = found.for_hits_anew(&self.problem, &anew.problem);
+                let with = anew.found_from(rms, begun).map(Some);
+                explained(anew, with)
+            }
+            (None, _) => first_of(anew()),
+        };
         match with {
-            Ok(Some(with)) if anew.is_explained(&with)? => Ok((Cow::Owned(anew), with)),
-            _ => Ok((Cow::Borrowed(self), first.map_or_else(of_all, Ok)?)),
+            Some((anew, with)) => Ok((Cow::Owned(anew), with)),
+            None => own(found),
         }
     }
 

@@ -76,14 +76,6 @@ pub(crate) struct Found {
     pub(crate) further: Vec<(Further, Score)>,
 }
 
-/// Where an estimate begins.
-pub(crate) enum Begin {
-    /// Where searches lead.
-    Searches(Extent),
-    /// Here.
-    At(Begun),
-}
-
 /// Where an estimate goes on from, and the searches that led there.
 pub(crate) struct Begun(Searched);
 
@@ -136,7 +128,7 @@ impl SpatialStudy {
                 .filter(|_| is_near && result.reasons_against.is_empty());
             let Some(wider) = wider else { break };
             own.to_mut().problem.wider = wider;
-            found = own.found(&rms, Begin::At(found.begun()))?;
+            found = own.found_from(&rms, found.begun())?;
             result = own.result(&found)?;
         }
         result.warnings.extend(of_hits);
@@ -148,22 +140,17 @@ impl SpatialStudy {
         self.noise != [0.0; 2]
     }
 
-    /// What fits best.
-    pub(crate) fn found(&self, rms: &Deviations, begin: Begin) -> Result<Found, SpatialError> {
-        let own = match begin {
-            Begin::At(begun) => begun,
-            Begin::Searches(extent) => self.begun(rms, extent)?.ok_or(SpatialError::NoStart)?,
-        };
-        self.found_from(rms, own)
-    }
-
-    /// Likewise, where the likely starts come to anything.
-    pub(crate) fn found_at_first(&self, rms: &Deviations) -> Result<Option<Found>, SpatialError> {
-        let begun = self.begun(rms, Extent::First)?;
+    /// What fits best, where searches as far as that lead.
+    pub(crate) fn searched(
+        &self,
+        rms: &Deviations,
+        extent: Extent<'_>,
+    ) -> Result<Option<Found>, SpatialError> {
+        let begun = self.begun(rms, extent)?;
         begun.map(|own| self.found_from(rms, own)).transpose()
     }
 
-    fn begun(&self, rms: &Deviations, extent: Extent) -> Result<Option<Begun>, SpatialError> {
+    fn begun(&self, rms: &Deviations, extent: Extent<'_>) -> Result<Option<Begun>, SpatialError> {
         let problem = &self.problem;
         let level = self.first_level(rms);
         let is_stated = matches!(self.level, Level::Relative(_));
@@ -188,7 +175,8 @@ impl SpatialStudy {
         }
     }
 
-    fn found_from(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
+    /// What fits best near there.
+    pub(crate) fn found_from(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
         match self.has_noise() {
             true => self.beside_noise(rms, begun),
             false => self.beside_exact(rms, begun),

@@ -41,14 +41,13 @@ pub(crate) struct Searched {
 }
 
 /// How many starts are followed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extent {
+pub(crate) enum Extent<'f> {
     /// The likely ones: where they come to nothing, something else may be wrong.
     First,
     /// The likely ones: where they come to nothing, what came of them is told.
     Likely,
-    /// As many as it takes.
-    All,
+    /// As many as it takes; where the likely ones come to nothing, unless this finds something else.
+    Unless(&'f mut dyn FnMut() -> bool),
 }
 
 /// The lowest of the searches. Beyond starts that are in doubt, no other is tried after one that noise explains, where its level is

@@ -42,12 +42,12 @@ const LOW_MIN: usize = LINES;
 ///
 /// A soft joint is seen at low frequencies alone: above, what all lines say of it is the noise of the substructures. So where the
 /// first searches come to nothing, low frequencies are searched by themselves, and all from where these lead. `None` where the likely
-/// starts alone were to be followed, and came to nothing.
+/// starts came to nothing, and no others were to be followed.
 pub(crate) fn searched_beside(
     problem: &Problem,
     level: &Deviations,
     noise: [f64; 2],
-    extent: Extent,
+    extent: Extent<'_>,
 ) -> Result<Option<Searched>, SpatialError> {
     let given = Given {
         problem,
@@ -71,9 +71,12 @@ pub(crate) fn searched_beside(
             match extent {
                 Extent::First => return Ok(None),
                 Extent::Likely => {}
-                Extent::All => {
-                    searches.follow(starts);
-                }
+                Extent::Unless(elsewhere) => match elsewhere() {
+                    true => return Ok(None),
+                    false => {
+                        searches.follow(starts);
+                    }
+                },
             }
         }
     }
@@ -230,7 +233,8 @@ impl<'p> Searches<'p> {
             }
             None => {
                 let is_known = self.explains(&best) && !self.is_refuted;
-                let do_agree = !self.is_in_doubt && 2 * self.agreeing > self.tried;
+                let are_enough = !self.is_in_doubt || self.tried >= COMPARED;
+                let do_agree = are_enough && 2 * self.agreeing > self.tried;
                 best.has_converged &= is_known || do_agree;
             }
         }

@@ -4,19 +4,17 @@
 //! the noise is taken as large as the residuals at first, and let down as they shrink: the errors that matter most come first, and
 //! each step begins near its end. Starts are those beside the errors that each structure tells by itself, and those without
 //! errors: where one kind leads astray, the other one often does not.
-//!
-//! Where the functions do not reach all motions of the joint, they may have other joints as well, and several searches agree on the
-//! wrong one. Only χ² tells them apart then, so that all of the first starts are followed unless noise clearly explains one.
 
+mod compare;
+mod down;
+
+use self::compare::compared;
+use self::down::let_down;
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
-use crate::normal::{Deviations, Normal, cost, squares_of_errors};
-use crate::parallel::over_each;
+use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::rivals::{as_good, rivals};
-use crate::search::{
-    AS_LOW_BESIDE_ERRORS, BY_CHANCE, CLEARLY, Extent, NOTHING, Searched, agreeing_with,
-};
+use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with};
 use crate::starts::{Starts, starts};
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
@@ -24,13 +22,6 @@ const LINES: usize = 12;
 
 /// Lines at which a search ends. The estimate goes on from there at more.
 pub(crate) const LINES_MAX: usize = 60;
-
-/// Noise of a step, in parts of the residuals of the step before.
-const LET_DOWN: f64 = 0.3;
-
-/// Residuals of a step that hardly shrinks them, in parts of those before, and such steps one after the other that are enough.
-const STALLED: f64 = 0.8;
-const PATIENCE: usize = 2;
 
 /// Squares over numbers that do not follow it, and those that noise and the budget explain.
 const LAGGING: f64 = 3.0;
@@ -50,25 +41,19 @@ const RIGID: f64 = 1e4;
 const AT_FIRST: usize = 4;
 const LIKELY: usize = 2;
 
-/// Likewise of those that are compared, where the functions may have other joints: beside errors of the set-up, and alone.
-const COMPARED: [usize; 2] = [5, 2];
-
-/// How far χ² of other joints is above that of one that noise clearly explains where they are out of the question: five deviations.
-const DECISIVE: f64 = 25.0;
-
 /// Minima that noise explains at the lines of the search and not at those of the estimate, after which no other is looked for.
 const MOST_CHECKED: usize = 6;
 
 /// The joint and the errors of the set-up, at [`LINES_MAX`] lines; how many searches there were, and how many came to the same
 /// minimum. None follows one that noise explains at all these lines, where its level is stated, one that leaves nothing, or two that
 /// agree: on what noise explains at the lines of the searches, or is not far above it. Where there may be other joints, none of the
-/// first ones is left out but after one that noise clearly explains. `None` where the likely starts alone were to be followed, and came
-/// to nothing.
+/// first ones is left out but after one that noise clearly explains. `None` where the likely starts came to nothing, and no others were
+/// to be followed.
 pub(crate) fn together(
     problem: &Problem,
     level: &Deviations,
     is_stated: bool,
-    extent: Extent,
+    extent: Extent<'_>,
 ) -> Result<Option<Searched>, SpatialError> {
     let likely = problem.likely_errors()?;
     let mut searches = Searches::new(problem, &likely, level, is_stated)?;
@@ -86,17 +71,21 @@ pub(crate) fn together(
     let mut tries = tries.map(|kinds| kinds.into_iter().flatten());
     let at_first = match extent {
         Extent::Likely => LIKELY,
-        Extent::First | Extent::All => AT_FIRST,
+        Extent::First | Extent::Unless(_) => AT_FIRST,
     };
     let is_enough = match is_in_doubt {
         true => searches.compare(compared(&beside, &alone)),
         false => searches.follow(tries.by_ref().take(at_first).flatten()),
     };
     if !is_enough {
-        if extent == Extent::First {
-            return Ok(None);
-        }
-        let is_all = extent == Extent::All;
+        let is_all = match extent {
+            Extent::First => return Ok(None),
+            Extent::Likely => false,
+            Extent::Unless(elsewhere) => match elsewhere() {
+                true => return Ok(None),
+                false => true,
+            },
+        };
         // where the joint is wrong, the errors of the set-up need not be
         let again = match &searches.best {
             Some(best) if is_all => searches.beside(&searches.thin.errors(&best.unknowns))?.0,
@@ -116,14 +105,6 @@ pub(crate) fn together(
             || searches.follow(tries.flatten());
     }
     searches.ended().map(Some)
-}
-
-/// What is compared where the functions may have other joints: from each start in one way.
-fn compared(beside: &[Start], alone: &[Start]) -> Vec<(Way, Start)> {
-    let ways = [Way::Curved, Way::Straight].into_iter().cycle();
-    let beside = ways.zip(beside.iter().cloned()).take(COMPARED[0]);
-    let alone = alone.iter().cloned().map(|start| (Way::Straight, start));
-    beside.chain(alone.take(COMPARED[1])).collect()
 }
 
 /// Along curves on which the functions are nearly straight, or straight on: each finds what the other one misses.
@@ -246,49 +227,6 @@ impl<'p> Searches<'p> {
         false
     }
 
-    /// Follows all, unless noise clearly explains the first; says whether noise explains the lowest, or several agree where its level
-    /// is not stated.
-    fn compare(&mut self, tries: Vec<(Way, Start)>) -> bool {
-        let (first, others) = tries.split_at(tries.len().min(1));
-        for tries in [first, others] {
-            let ended = over_each(tries, |(way, (residual, start))| {
-                self.let_down(*way, *residual, start.clone())
-            });
-            self.tried += tries.len();
-            let ended: Vec<Fit> = ended.into_iter().flatten().collect();
-            for fit in &ended {
-                if fit.cost < self.came_to(fit) {
-                    self.best = Some(fit.clone());
-                }
-            }
-            let others = self.others_among(&ended);
-            let at_more = over_each(&others, |fit| {
-                Fit::of(&self.lines, fit.unknowns.clone(), self.level, Effort::Near)
-            });
-            self.checked.extend(at_more.into_iter().flatten());
-            if self.is_clear() {
-                return true;
-            }
-        }
-        self.is_confirmed()
-    }
-
-    /// Those that are not far above the lowest, and of which none came to where another one did.
-    fn others_among<'f>(&mut self, ended: &'f [Fit]) -> Vec<&'f Fit> {
-        let Some(lowest) = self.best.as_ref().map(|best| best.cost) else {
-            return Vec::new();
-        };
-        let most = as_good(lowest, self.thin.numbers() as f64);
-        let mut others = Vec::new();
-        for fit in ended.iter().filter(|fit| fit.cost <= most) {
-            if !self.compared.iter().any(|&cost| is_same(cost, fit.cost)) {
-                self.compared.push(fit.cost);
-                others.push(fit);
-            }
-        }
-        others
-    }
-
     fn let_down(&self, way: Way, residual: f64, start: Unknowns) -> Option<Fit> {
         let problem = match way {
             Way::Curved => &self.curved,
@@ -348,20 +286,6 @@ impl<'p> Searches<'p> {
         })
     }
 
-    /// Whether noise clearly explains the lowest of them, or nothing is left.
-    fn is_clear(&self) -> bool {
-        let leaves_nothing = |fit: &Fit| fit.cost < NOTHING * self.lines.numbers() as f64;
-        self.lowest_checked().is_some_and(|fit| {
-            leaves_nothing(fit) || self.is_stated && self.is_left_by(fit, CLEARLY)
-        })
-    }
-
-    /// Whether chance explains what this one of them leaves, beside what its unknowns took.
-    fn is_left_by(&self, fit: &Fit, deviations: f64) -> bool {
-        let free = self.lines.numbers() - self.lines.joint_count();
-        fit.cost < self.by_chance(free, deviations) && !self.is_rigid(fit)
-    }
-
     fn by_chance(&self, numbers: usize, deviations: f64) -> f64 {
         // χ² of ν numbers is ν ± √(2 ν)
         numbers as f64 + deviations * (2.0 * numbers as f64).sqrt()
@@ -389,7 +313,7 @@ impl<'p> Searches<'p> {
         match self.lowest_checked() {
             // several searches agree on wrong ones, too
             Some(lowest) if self.is_in_doubt && self.is_stated => {
-                self.is_left_by(lowest, BY_CHANCE)
+                self.is_left_by(lowest, BY_CHANCE) || self.is_the_only_one()
             }
             Some(_) => self.is_checked() || self.agreeing() > 1,
             None => {
@@ -397,23 +321,6 @@ impl<'p> Searches<'p> {
                 best.is_some_and(|best| self.agree(best) || self.explains(best))
             }
         }
-    }
-
-    fn rivals(&self) -> Result<usize, SpatialError> {
-        if !self.is_in_doubt {
-            return Ok(0);
-        }
-        let lowest = self.lowest_checked().map_or(0.0, |fit| fit.cost);
-        let most = match self.is_clear() && self.is_stated {
-            true => lowest + DECISIVE,
-            false => as_good(lowest, self.lines.numbers() as f64),
-        };
-        // one that creeps may be on its way to the lowest
-        let ended = self.checked.iter().filter(|fit| fit.has_converged);
-        let ended: Vec<Fit> = ended.cloned().collect();
-        rivals(&self.lines, &ended, most, |best| {
-            Ok(Normal::of(&self.lines, &best.unknowns, self.level)?.information)
-        })
     }
 
     /// The lowest of the searches.
@@ -453,45 +360,9 @@ impl<'p> Searches<'p> {
     }
 }
 
-/// Whether two searches beside errors of the set-up came to the same minimum.
-fn is_same(one: f64, other: f64) -> bool {
-    (one - other).abs() <= AS_LOW_BESIDE_ERRORS * one.min(other)
-}
-
 /// Whether squares are many more than noise leaves.
 fn lags(problem: &Problem, cost: f64) -> bool {
     cost > LAGGING * problem.numbers() as f64
-}
-
-/// From one start, whose squares are known.
-fn let_down(
-    problem: &Problem,
-    start: Unknowns,
-    residual: f64,
-    level: &Deviations,
-) -> Result<Fit, SpatialError> {
-    let numbers = problem.numbers() as f64;
-    let mut unknowns = start;
-    let mut left = (residual / numbers).sqrt();
-    let mut factor = left;
-    let mut stalled = 0;
-    while factor > 1.0 {
-        let own: Deviations = level.iter().map(|level| factor * level).collect();
-        let fit = Fit::of(problem, unknowns, &own, Effort::Coarse)?;
-        unknowns = fit.unknowns;
-        let now = factor * (fit.cost / numbers).sqrt();
-        stalled = if now > STALLED * left { stalled + 1 } else { 0 };
-        if stalled >= PATIENCE {
-            return Ok(Fit {
-                cost: cost(problem, &unknowns, level)?,
-                unknowns,
-                has_converged: false,
-            });
-        }
-        left = now;
-        factor = LET_DOWN * left;
-    }
-    Fit::of(problem, unknowns, level, Effort::Near)
 }
 
 /// Whether a joint is as good as rigid in a motion, beside the structures' own stiffnesses.

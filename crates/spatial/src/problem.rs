@@ -167,6 +167,11 @@ impl Problem {
         Ok(own)
     }
 
+    /// Whether there are fewer functions than the motions of the joints have among themselves: these may have other joints as well.
+    pub(crate) fn has_few_functions(&self) -> bool {
+        self.observed.len() < self.links.own_motions().len().pow(2)
+    }
+
     /// With hits of the assembly that may be so far from those of the substructures' tests.
     pub(crate) fn with_hits(mut self, anew: Option<Tolerance>) -> Self {
         for side in &mut self.sides {

@@ -12,6 +12,9 @@ const BEYOND_BUDGET: f64 = 2.0;
 /// χ² over degrees of freedom beyond which stated noise does not explain the residuals.
 const MISFIT: f64 = 1.5;
 
+/// Likewise from which on a level that is stated too small may be why no search is confirmed.
+const REMARKABLE: f64 = 1.1;
+
 /// Residual over computed functions, r.m.s., beyond which the model is not that of the data.
 const RESIDUAL_MAX: f64 = 0.5;
 
@@ -24,6 +27,8 @@ const NOT_PASSIVE: f64 = 1e-9;
 impl SpatialIdentification {
     pub(crate) fn reasons(&self, has_converged: bool) -> Vec<String> {
         let mut reasons = of_search(has_converged, self.relative_rms);
+        let of_level = self.reduced_chi_squared.filter(|_| !has_converged);
+        reasons.extend(of_level.and_then(of_stated_noise));
         if let Some(used) = self.budget_used.filter(|&used| used > BEYOND_BUDGET) {
             reasons.push(format!(
                 "the errors of the set-up would be {:.1} times as large as the budget says: check positions, directions, signs and gains \
@@ -74,6 +79,16 @@ pub(crate) fn of_search(has_converged: bool, relative_rms: f64) -> Vec<String> {
         ));
     }
     reasons
+}
+
+/// Of a search that noise does not confirm, where its level may be the reason.
+fn of_stated_noise(reduced_chi_squared: f64) -> Option<String> {
+    (REMARKABLE..=MISFIT).contains(&reduced_chi_squared).then(|| {
+        format!(
+            "χ² over degrees of freedom is {reduced_chi_squared:.2}: if the noise is larger than stated, state it as it is, so that minima can \
+             be told apart by it"
+        )
+    })
 }
 
 /// Of other joints that searches came to.

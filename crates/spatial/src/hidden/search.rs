@@ -8,7 +8,7 @@ use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
 use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, agreeing_with};
-use crate::starts::{Starts, starts};
+use crate::starts::starts;
 use crate::together::LINES_MAX;
 
 /// Lines that are looked at for each one of the estimate.
@@ -29,8 +29,9 @@ const EXPECTED: f64 = 1.5;
 /// Starts that are followed before low frequencies are asked, and there.
 const AT_FIRST: usize = 2;
 
-/// Likewise where the functions may have other joints, unless noise clearly explains one.
+/// Likewise where the functions may have other joints, unless noise clearly explains one; and of how many most may agree there.
 const COMPARED: usize = 6;
+const ENOUGH: usize = 4;
 
 /// Lines of low frequencies, one of so many; and the least of them.
 const LOW: [usize; 2] = [8, 4];
@@ -54,11 +55,12 @@ pub(crate) fn searched_beside(
         level,
         noise,
     };
-    let (begun, is_in_doubt) = given.starts()?;
+    let begun = given.starts()?;
+    let is_in_doubt = problem.has_few_functions();
     let first = begun.first().ok_or(SpatialError::NoStart)?;
     let few = given.few(first)?;
     let squares = Beside::of(&few, level, noise, first)?;
-    let mut searches = Searches::new(given, squares, is_in_doubt);
+    let mut searches = Searches::new(given, squares);
     let mut starts = searches.lowest_first(begun).into_iter();
     let at_first = if is_in_doubt { COMPARED } else { AT_FIRST };
     if !searches.follow(starts.by_ref().take(at_first)) && searches.held.is_none() {
@@ -92,14 +94,12 @@ pub(super) struct Given<'p> {
 }
 
 impl<'p> Given<'p> {
-    /// Starts, and whether they are in doubt.
-    fn starts(&self) -> Result<(Vec<Unknowns>, bool), SpatialError> {
+    fn starts(&self) -> Result<Vec<Unknowns>, SpatialError> {
         let likely = self.problem.likely_errors()?;
         let known = self.problem.thinned(SEARCHED);
         let known = known.with_errors(&likely)?.smoothed()?;
-        let Starts { all, in_doubt } = starts(&known, self.level)?;
-        let all = all.map(|joint| joint.beside(&likely)).collect();
-        Ok((all, in_doubt > 0))
+        let joints = starts(&known, self.level)?.all;
+        Ok(joints.map(|joint| joint.beside(&likely)).collect())
     }
 
     /// The lines at which noise moves least, as far as the joint is known.
@@ -124,11 +124,11 @@ impl<'p> Given<'p> {
 
     /// What noise explains at these lines, if likely starts lead there.
     fn held(&self) -> Result<Option<Unknowns>, SpatialError> {
-        let (begun, is_in_doubt) = self.starts()?;
+        let begun = self.starts()?;
         let first = begun.first().ok_or(SpatialError::NoStart)?;
         let few = self.few(first)?;
         let squares = Beside::of(&few, self.level, self.noise, first)?;
-        let mut searches = Searches::new(*self, squares, is_in_doubt);
+        let mut searches = Searches::new(*self, squares);
         let starts = searches.lowest_first(begun).into_iter();
         searches.follow(starts.take(AT_FIRST));
         Ok(searches.held.map(|held| held.unknowns))
@@ -151,11 +151,11 @@ struct Searches<'p> {
 }
 
 impl<'p> Searches<'p> {
-    fn new(given: Given<'p>, squares: Beside<'p>, is_in_doubt: bool) -> Self {
+    fn new(given: Given<'p>, squares: Beside<'p>) -> Self {
         Self {
             given,
             squares,
-            is_in_doubt,
+            is_in_doubt: given.problem.has_few_functions(),
             best: None,
             held: None,
             is_refuted: false,
@@ -233,7 +233,7 @@ impl<'p> Searches<'p> {
             }
             None => {
                 let is_known = self.explains(&best) && !self.is_refuted;
-                let are_enough = !self.is_in_doubt || self.tried >= COMPARED;
+                let are_enough = !self.is_in_doubt || self.tried >= ENOUGH;
                 let do_agree = are_enough && 2 * self.agreeing > self.tried;
                 best.has_converged &= is_known || do_agree;
             }

@@ -15,7 +15,7 @@ use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
 use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with};
-use crate::starts::{Starts, starts};
+use crate::starts::starts;
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
 const LINES: usize = 12;
@@ -57,8 +57,8 @@ pub(crate) fn together(
 ) -> Result<Option<Searched>, SpatialError> {
     let likely = problem.likely_errors()?;
     let mut searches = Searches::new(problem, &likely, level, is_stated)?;
-    let (beside, is_in_doubt) = searches.beside(&likely)?;
-    searches.is_in_doubt = is_in_doubt;
+    let beside = searches.beside(&likely)?;
+    let is_in_doubt = searches.is_in_doubt;
     let alone = searches.lowest_first(starts(&searches.thin, level)?.all);
     let tries = (0..beside.len().max(alone.len())).map(|i| {
         let of = |way, starts: &[Start]| starts.get(i).map(|start| (way, start.clone()));
@@ -88,7 +88,7 @@ pub(crate) fn together(
         };
         // where the joint is wrong, the errors of the set-up need not be
         let again = match &searches.best {
-            Some(best) if is_all => searches.beside(&searches.thin.errors(&best.unknowns))?.0,
+            Some(best) if is_all => searches.beside(&searches.thin.errors(&best.unknowns))?,
             _ => Vec::new(),
         };
         let again = again.into_iter().take(AT_FIRST);
@@ -157,7 +157,7 @@ impl<'p> Searches<'p> {
             problem,
             level,
             is_stated,
-            is_in_doubt: false,
+            is_in_doubt: problem.has_few_functions(),
             curved: Problem {
                 balance: Some(balance.clone()),
                 ..thin.clone()
@@ -173,12 +173,11 @@ impl<'p> Searches<'p> {
         })
     }
 
-    /// Starts beside these errors of the set-up, of more lines than the searches have; and whether they are in doubt.
-    fn beside(&self, errors: &[Vec<f64>; 2]) -> Result<(Vec<Start>, bool), SpatialError> {
+    /// Starts beside these errors of the set-up, of more lines than the searches have.
+    fn beside(&self, errors: &[Vec<f64>; 2]) -> Result<Vec<Start>, SpatialError> {
         let known = self.problem.thinned(LINES_MAX).with_errors(errors)?;
-        let Starts { all, in_doubt } = starts(&known, self.level)?;
-        let beside = self.lowest_first(all.map(|joint| joint.beside(errors)));
-        Ok((beside, in_doubt > 0))
+        let joints = starts(&known, self.level)?.all;
+        Ok(self.lowest_first(joints.map(|joint| joint.beside(errors))))
     }
 
     fn lowest_first(&self, starts: impl Iterator<Item = Unknowns>) -> Vec<Start> {

@@ -167,6 +167,11 @@ impl Problem {
         Ok(own)
     }
 
+    /// Real numbers of the assembly less those of the joints, at least one.
+    pub(crate) fn free_numbers(&self) -> usize {
+        self.numbers().saturating_sub(self.joint_count()).max(1)
+    }
+
     /// Whether there are fewer functions than the motions of the joints have among themselves: these may have other joints as well.
     pub(crate) fn has_few_functions(&self) -> bool {
         self.observed.len() < self.links.own_motions().len().pow(2)

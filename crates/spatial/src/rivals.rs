@@ -57,3 +57,52 @@ pub(crate) fn rivals(
     });
     Ok(rivals.count())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Unknowns;
+    use crate::samples::{chain, unknowns};
+
+    /// One that is 3 % elsewhere is the same joint; one that is 20 % elsewhere is another one where that is beyond its deviations.
+    #[test]
+    fn others_have_other_stiffnesses_beyond_their_deviations() {
+        let problem = chain();
+        let at = unknowns(&problem).0;
+        let place = problem.links.stiffnesses()[0];
+        let fit = |part: f64, cost: f64| {
+            let mut own = at.clone();
+            own[place] *= part;
+            Fit {
+                unknowns: Unknowns(own),
+                cost,
+                has_converged: true,
+            }
+        };
+        let ended = [
+            fit(1.03, 101.0),
+            fit(1.0, 100.0),
+            fit(1.2, 101.0),
+            fit(1.2, 150.0),
+        ];
+        let found = |deviation: f64, most: f64| {
+            rivals(&problem, &ended, most, |best| {
+                let own = best.unknowns.0.map(|own| match own {
+                    0.0 => 1.0,
+                    own => (deviation * own).powi(-2),
+                });
+                Ok(DMatrix::from_diagonal(&own))
+            })
+            .unwrap()
+        };
+        assert_eq!(found(0.05, 120.0), 1);
+        assert_eq!(found(0.05, 200.0), 2);
+        assert_eq!(found(0.15, 200.0), 0);
+    }
+
+    /// χ² of 200 numbers is 200 ± 20.
+    #[test]
+    fn as_good_is_six_deviations_above_the_lowest() {
+        assert!((as_good(200.0, 200.0) - 320.0).abs() < 1e-9);
+    }
+}

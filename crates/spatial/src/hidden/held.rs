@@ -48,7 +48,7 @@ impl AtMore {
         }
         let own = Beside::of(&lines, level, noise, &fit.unknowns)?;
         let left = own.left_in_assembly(&fit.unknowns, fit.cost)?;
-        let free = (lines.numbers() - lines.joint_count()) as f64;
+        let free = lines.free_numbers() as f64;
         // χ² of ν numbers is ν ± √(2 ν)
         let beyond = (left - 1.0) / (2.0 / free).sqrt();
         Ok(Self {

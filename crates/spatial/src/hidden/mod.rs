@@ -174,7 +174,7 @@ impl<'p> Beside<'p> {
             lines.map(of).sum::<Result<f64, _>>()
         })?;
         let alone = parts.iter().sum::<f64>() + squares_of_errors(self.problem, unknowns);
-        let free = self.problem.numbers() - self.problem.joint_count();
+        let free = self.problem.free_numbers();
         Ok((squares - alone) / free as f64)
     }
 

@@ -79,7 +79,7 @@ impl Searches<'_> {
 
     /// Whether chance explains what this one of them leaves, beside what its unknowns took.
     pub(super) fn is_left_by(&self, fit: &Fit, deviations: f64) -> bool {
-        let free = self.lines.numbers() - self.lines.joint_count();
+        let free = self.lines.free_numbers();
         fit.cost < self.by_chance(free, deviations) && !self.is_rigid(fit)
     }
 

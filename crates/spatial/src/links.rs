@@ -148,7 +148,7 @@ impl Links {
     pub(crate) fn stiffnesses(&self) -> Vec<usize> {
         let of = |one: &Sought<'_>| {
             let first = one.first;
-            let entries = one.model.entries().into_iter().enumerate();
+            let entries = one.model.entries().iter().enumerate();
             let own = entries.filter(|(_, entry)| entry.row == entry.column);
             own.map(move |(n, _)| first + n).collect::<Vec<_>>()
         };

@@ -59,8 +59,7 @@ pub(crate) fn searched(
     is_stated: bool,
 ) -> Result<Searched, SpatialError> {
     let numbers = problem.numbers() as f64;
-    // χ² of ν numbers is ν ± √(2 ν)
-    let explained = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
+    let explained = by_chance(problem.numbers(), BY_CHANCE);
     // without a stated level the lowest so far says what is far above
     let promising = |ended: &[Fit]| match is_stated {
         true => explained,
@@ -133,6 +132,12 @@ pub(crate) fn searched(
         starts: [tried, agreeing],
         rivals,
     })
+}
+
+/// χ² of so many numbers up to which chance explains it, with so many of its standard deviations.
+pub(crate) fn by_chance(numbers: usize, deviations: f64) -> f64 {
+    // χ² of ν numbers is ν ± √(2 ν)
+    numbers as f64 + deviations * (2.0 * numbers as f64).sqrt()
 }
 
 fn lowest(fits: &[Fit]) -> f64 {

@@ -7,7 +7,7 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, agreeing_with};
+use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, agreeing_with, by_chance};
 use crate::starts::starts;
 use crate::together::LINES_MAX;
 
@@ -174,9 +174,7 @@ impl<'p> Searches<'p> {
 
     /// Follows one after the other until there is no need of more; says whether that is so.
     fn follow(&mut self, starts: impl Iterator<Item = (f64, Unknowns)>) -> bool {
-        let numbers = self.squares.numbers() as f64;
-        // χ² of ν numbers is ν ± √(2 ν)
-        let by_chance = numbers + BY_CHANCE * (2.0 * numbers).sqrt();
+        let by_chance = by_chance(self.squares.numbers(), BY_CHANCE);
         for (residual, start) in starts {
             self.tried += 1;
             let Ok(fit) = let_down(&mut self.squares, start, residual) else {

@@ -9,7 +9,7 @@ use crate::fit::{Effort, Fit};
 use crate::normal::Normal;
 use crate::parallel::over_each;
 use crate::rivals::{as_good, rivals};
-use crate::search::{AS_LOW_BESIDE_ERRORS, CLEARLY, NOTHING};
+use crate::search::{AS_LOW_BESIDE_ERRORS, CLEARLY, NOTHING, by_chance};
 
 /// Starts that are compared: beside errors of the set-up, and alone.
 const COMPARED: [usize; 2] = [5, 2];
@@ -70,7 +70,7 @@ impl Searches<'_> {
     }
 
     /// Whether noise clearly explains the lowest of them, or nothing is left.
-    fn is_clear(&self) -> bool {
+    pub(super) fn is_clear(&self) -> bool {
         let leaves_nothing = |fit: &Fit| fit.cost < NOTHING * self.lines.numbers() as f64;
         self.lowest_checked().is_some_and(|fit| {
             leaves_nothing(fit) || self.is_stated && self.is_left_by(fit, CLEARLY)
@@ -80,7 +80,7 @@ impl Searches<'_> {
     /// Whether chance explains what this one of them leaves, beside what its unknowns took.
     pub(super) fn is_left_by(&self, fit: &Fit, deviations: f64) -> bool {
         let free = self.lines.free_numbers();
-        fit.cost < self.by_chance(free, deviations) && !self.is_rigid(fit)
+        fit.cost < by_chance(free, deviations) && !self.is_rigid(fit)
     }
 
     /// Whether most searches came to the lowest, and none to another one that is as good: noise that is stated too small leaves

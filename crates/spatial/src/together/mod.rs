@@ -14,7 +14,9 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
-use crate::search::{AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with};
+use crate::search::{
+    AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with, by_chance,
+};
 use crate::starts::starts;
 
 /// Lines of the search from several starts: thousands of numbers, for hundreds of unknowns.
@@ -92,17 +94,15 @@ pub(crate) fn together(
             _ => Vec::new(),
         };
         let again = again.into_iter().take(AT_FIRST);
-        let mut again =
-            again.flat_map(|start| [(Way::Straight, start.clone()), (Way::Curved, start)]);
-        let _ = !is_all
-            || match is_in_doubt {
-                true => searches.compare(again.step_by(2).collect()),
-                false => searches.follow(again.by_ref()),
-            }
-            || is_in_doubt
-            || searches.ends_within_noise()
-            || searches.is_hopeless()
-            || searches.follow(tries.flatten());
+        if is_in_doubt {
+            searches.compare(again.map(|start| (Way::Straight, start)).collect());
+        } else if is_all {
+            let both = |start: Start| [(Way::Straight, start.clone()), (Way::Curved, start)];
+            let _ = searches.follow(again.flat_map(both))
+                || searches.ends_within_noise()
+                || searches.is_hopeless()
+                || searches.follow(tries.flatten());
+        }
     }
     searches.ended().map(Some)
 }
@@ -281,13 +281,8 @@ impl<'p> Searches<'p> {
     fn is_checked(&self) -> bool {
         let latest = self.checked.last();
         latest.is_some_and(|fit| {
-            fit.cost < self.by_chance(self.lines.numbers(), BY_CHANCE) && !self.is_rigid(fit)
+            fit.cost < by_chance(self.lines.numbers(), BY_CHANCE) && !self.is_rigid(fit)
         })
-    }
-
-    fn by_chance(&self, numbers: usize, deviations: f64) -> f64 {
-        // χ² of ν numbers is ν ± √(2 ν)
-        numbers as f64 + deviations * (2.0 * numbers as f64).sqrt()
     }
 
     fn lowest_checked(&self) -> Option<&Fit> {
@@ -314,6 +309,7 @@ impl<'p> Searches<'p> {
             Some(lowest) if self.is_in_doubt && self.is_stated => {
                 self.is_left_by(lowest, BY_CHANCE) || self.is_the_only_one()
             }
+            Some(_) if self.is_in_doubt => self.is_clear() || self.agreeing > 1,
             Some(_) => self.is_checked() || self.agreeing() > 1,
             None => {
                 let best = self.best.as_ref();

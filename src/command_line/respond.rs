@@ -15,7 +15,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use nalgebra::DMatrix;
 use serde_json::json;
 
-use bolted_joint::frf::write_uff58;
+use bolted_joint::frf::{FrfSet, to_npz, write_uff58};
 use bolted_joint::identify::{
     Bands, FrfFile, JointMatrices, Study, predict_assembly, predict_lines,
 };
@@ -54,11 +54,11 @@ pub(super) struct RespondArguments {
     /// The joint that the assembly is to have (joint file); NAME.BOLT.joint.json of each bolt where they differ
     #[arg(long, value_name = "NAME.joint.json")]
     joint: Option<PathBuf>,
-    /// File to write: a table or, of an assembly, a universal file
+    /// File to write: a table or, of an assembly, a universal file or an archive of NumPy arrays
     #[arg(
         short,
         long,
-        value_name = "NAME.csv|NAME.uff",
+        value_name = "NAME.csv|NAME.uff|NAME.npz",
         required_unless_present = "plan"
     )]
     output: Option<PathBuf>,
@@ -113,7 +113,7 @@ enum NoiseProcedure {
     Response,
 }
 
-/// What stands in a universal file of functions that this command has made.
+/// What stands in a file of functions that this command has made.
 const COMPUTED: &str = "computed, not measured";
 
 /// More lines than any analyser has.
@@ -123,6 +123,23 @@ const MOST_LINES: f64 = 1e7;
 enum Format {
     Table,
     Universal,
+    Archive,
+}
+
+impl Format {
+    /// Writes functions that were computed.
+    fn write(self, set: &FrfSet, output: &Path, what: &str) -> Result<(), CliError> {
+        let description = format!("{COMPUTED}: {what}");
+        match self {
+            Self::Table => write_file(output, to_csv(set).as_bytes()),
+            Self::Archive => write_file(output, &to_npz(set, &description)?),
+            Self::Universal => {
+                write_uff58(set, output, &description)?;
+                tell_link(output);
+                Ok(())
+            }
+        }
+    }
 }
 
 /// Samples of a harmonic test where no number is given.
@@ -213,14 +230,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
         ),
         None => "no noise".to_owned(),
     };
-    match format {
-        Format::Table => write_file(output, to_csv(&measured).as_bytes())?,
-        Format::Universal => {
-            let description = format!("{COMPUTED}: {}, {what}", study.name);
-            write_uff58(&measured, output, &description)?;
-            tell_link(output);
-        }
-    }
+    format.write(&measured, output, &format!("{}, {what}", study.name))?;
     let functions = measured.functions().count();
     let lines = predict_lines(&study, &joints, &frequency_hz)?;
     let bands = study.choose_bands(&lines, &joints)?;
@@ -347,10 +357,11 @@ fn format(path: &Path) -> Result<Format, CliError> {
     match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("csv") => Ok(Format::Table),
         Some("uff" | "unv") => Ok(Format::Universal),
+        Some("npz") => Ok(Format::Archive),
         _ => Err(CliError::option(
             "--output",
             path.display(),
-            "a name that ends in .csv, .uff or .unv",
+            "a name that ends in .csv, .uff, .unv or .npz",
         )),
     }
 }

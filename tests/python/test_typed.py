@@ -1,6 +1,8 @@
 """The module's types are those that it states."""
 
+import inspect
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -79,3 +81,25 @@ def test_a_strict_checker_finds_nothing():
         check=False,
     )
     assert checked.returncode == 0, checked.stdout
+
+
+def public_functions():
+    """All functions and methods that users may call, with their names."""
+    for name in bolted_joint.__all__:
+        value = getattr(bolted_joint, name)
+        if inspect.isfunction(value):
+            yield name, value
+        elif inspect.isclass(value):
+            for method, function in vars(value).items():
+                if not method.startswith("_") and inspect.isfunction(function):
+                    yield f"{name}.{method}", function
+
+
+@pytest.mark.parametrize(("name", "function"), public_functions(), ids=lambda own: own if isinstance(own, str) else "")
+def test_documentation_names_every_parameter_and_no_other(name, function):
+    parameters = [own for own in inspect.signature(function).parameters if own not in ("self", "cls")]
+    section = re.search(r"Parameters\n-+\n(.*?)(?:\n\n[A-Z]\w+\n-+|\Z)", inspect.getdoc(function), re.DOTALL)
+    lines = section[1].splitlines() if section else []
+    named = [re.match(r"(\*{0,2}\w[\w, ]*?) :", line) for line in lines if not line.startswith(" ")]
+    documented = [one.strip("* ") for found in named if found for one in found[1].split(",")]
+    assert documented == parameters

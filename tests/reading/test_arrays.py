@@ -1,9 +1,11 @@
 """Arrays as SciPy and NumPy save them, under the names that people give them."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
+import pyuff
 import scipy.io
 from conftest import POINTS
 
@@ -102,3 +104,36 @@ def test_newer_matlab_files_are_told_how_to_be_saved(run, tmp_path):
     done = run("show", path, expect=1)
     for part in ("newer.mat", "HDF5", "'-v7'", "Python module"):
         assert part in done.stderr
+
+
+def test_numpy_reads_what_respond_computes(demo, run, tmp_path):
+    """The archive has the values that pyuff finds in the universal file, to the last digit that one shows."""
+    command = ["respond", demo.folder / "study.toml", "--joint", demo.folder / "m10x16.joint.json", "--step", "5"]
+    for ending in ("npz", "uff"):
+        run(*command, "-o", tmp_path / f"c.{ending}")
+    # from 5 to 512 Hz
+    with np.load(tmp_path / "c.npz") as archive:
+        found = dict(archive)
+    assert found["axes"].item() == "frequency,response,reference"
+    assert found["quantity"].item() == "receptance"
+    assert found["description"].item().startswith(b"computed, not measured: M10x16")
+    assert found["response"].tolist() == found["reference"].tolist() == POINTS
+    assert found["unit"].tolist() == [["m/N"] * 3] * 3
+    functions = [one for one in pyuff.UFF(str(tmp_path / "c.uff")).read_sets() if one["type"] == 58]
+    assert len(functions) == 9
+    for one in functions:
+        np.testing.assert_allclose(found["frequency"], one["x"], rtol=1e-9)
+        own = found["frf"][:, one["rsp_node"] - 11, one["ref_node"] - 11]
+        np.testing.assert_allclose(own, one["data"], rtol=1e-11)
+    # what was computed may be computed anew, into the study that it was computed for
+    study = (demo.folder / "study.toml").read_text(encoding="utf-8").replace("assembly.uff", "c.npz")
+    for name in ("a-modes.toml", "m10x16.joint.json"):
+        shutil.copy(demo.folder / name, tmp_path)
+    (tmp_path / "study.toml").write_text(study, encoding="utf-8")
+    again = ["respond", tmp_path / "study.toml", "--joint", tmp_path / "m10x16.joint.json", "-o", tmp_path / "c.npz"]
+    run(*again)
+    # what was measured may not
+    np.savez(tmp_path / "c.npz", **usual(demo))
+    assert "it would be lost" in run(*again, expect=1).stderr
+    refused = run(*command, "-o", tmp_path / "c.mat", expect=1).stderr
+    assert "expected a name that ends in .csv, .uff, .unv or .npz" in refused

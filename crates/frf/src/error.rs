@@ -245,6 +245,25 @@ pub enum FrfError {
         /// The system's error.
         source: io::Error,
     },
+    /// Functions that fill no matrix are to be written as one.
+    #[error(
+        "found {functions} functions between {responses} responses and {references} references, expected all {} of an archive of \
+         arrays; write a table (.csv) or a universal file (.uff) instead",
+        responses * references
+    )]
+    NotRectangular {
+        /// How many there are.
+        functions: usize,
+        /// Responses of these.
+        responses: usize,
+        /// References of these.
+        references: usize,
+    },
+    /// An archive cannot be made.
+    #[error(
+        "the archive cannot be made: {0}; write a table (.csv) or a universal file (.uff) instead"
+    )]
+    Archive(#[source] io::Error),
     /// A universal file is not usable.
     #[error("{}, line {line}: {problem}", path.display())]
     Uff {

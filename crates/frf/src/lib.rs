@@ -35,7 +35,7 @@ pub use error::FrfError;
 pub use function::Frf;
 pub use mat::{read_mat, read_mat_from};
 pub use noise::polluted;
-pub use npz::{read_npz, read_npz_from};
+pub use npz::{read_npz, read_npz_from, to_npz};
 pub use options::ReadOptions;
 pub use passivity::{Asked, beyond_noise, feeds_energy, turns_backwards, without_phase};
 pub use quantity::{Quantity, receptance_unit};

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 /// Which functions there are, rows × columns, and how much each counts.
+#[derive(Clone)]
 pub(crate) struct Grid {
     /// 1/σ², 0 for what was not measured.
     weights: DMatrix<f64>,

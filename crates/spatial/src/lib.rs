@@ -59,6 +59,7 @@ mod steps;
 mod study;
 mod tables;
 mod together;
+mod valley;
 
 pub use chain::{
     Addition, Aim, Answer, Answers, Apart, ChainIdentification, ChainStudy, FoundJoint, Plan,

@@ -16,10 +16,27 @@ const AS_GOOD: f64 = 6.0;
 const ELSEWHERE: f64 = 0.05;
 const BEYOND: f64 = 2.0;
 
+/// How far χ² of other joints is above that of one that noise clearly explains where they are out of the question: five deviations.
+pub(crate) const DECISIVE: f64 = 25.0;
+
 /// Squares of so many numbers up to which they are as good as the lowest, wherever that is: it need not be the joint's.
 pub(crate) fn as_good(lowest: f64, numbers: f64) -> f64 {
     // χ² of ν numbers is ν ± √(2 ν)
     lowest * (1.0 + AS_GOOD * (2.0 / numbers).sqrt())
+}
+
+/// Whether a search came to another joint than another one, beside which stiffnesses are elsewhere.
+pub(crate) fn is_elsewhere(problem: &Problem, one: &Fit, other: &Fit) -> bool {
+    let mut places = problem.links.stiffnesses().into_iter();
+    places.any(|place| is_away(one, other, place))
+}
+
+fn is_away(one: &Fit, other: &Fit, place: usize) -> bool {
+    away(one, other, place) > ELSEWHERE * other.unknowns.0[place].abs()
+}
+
+fn away(one: &Fit, other: &Fit, place: usize) -> f64 {
+    (one.unknowns.0[place] - other.unknowns.0[place]).abs()
 }
 
 /// How many searches came to joints with other stiffnesses than the lowest, with squares up to these; what is known of the lowest is
@@ -33,13 +50,9 @@ pub(crate) fn rivals(
     let Some(best) = (ended.iter()).min_by(|one, other| one.cost.total_cmp(&other.cost)) else {
         return Ok(0);
     };
-    let stiffnesses = problem.links.stiffnesses();
-    let away = |fit: &Fit, place: usize| (fit.unknowns.0[place] - best.unknowns.0[place]).abs();
-    let is_elsewhere =
-        |fit: &&Fit, place: usize| away(fit, place) > ELSEWHERE * best.unknowns.0[place].abs();
     let others = ended.iter().filter(|fit| fit.cost <= most);
     let others: Vec<&Fit> = others
-        .filter(|fit| stiffnesses.iter().any(|&place| is_elsewhere(fit, place)))
+        .filter(|fit| is_elsewhere(problem, fit, best))
         .collect();
     if others.is_empty() {
         return Ok(0);
@@ -49,11 +62,11 @@ pub(crate) fn rivals(
         let known = covariance
             .as_ref()
             .map(|known| known[(place, place)].sqrt());
-        known.is_none_or(|deviation| away(fit, place) > BEYOND * deviation)
+        known.is_none_or(|deviation| away(fit, best, place) > BEYOND * deviation)
     };
     let rivals = others.into_iter().filter(|fit| {
-        let mut places = stiffnesses.iter();
-        places.any(|&place| is_elsewhere(fit, place) && is_beyond(fit, place))
+        let mut places = problem.links.stiffnesses().into_iter();
+        places.any(|place| is_away(fit, best, place) && is_beyond(fit, place))
     });
     Ok(rivals.count())
 }

@@ -98,7 +98,7 @@ fn not_determined(found: &SpatialIdentification) -> Option<String> {
     let is_told = found.reasons_against.is_empty() && !names.is_empty();
     is_told.then(|| {
         format!(
-            "the functions do not determine {}: the intervals are as wide as the numbers; plan the test (respond --plan), or take a \
+            "the functions do not determine {}: the intervals are as wide as the numbers; plan the test (`respond --plan`), or take a \
              model with fewer numbers",
             names.join(", ")
         )

@@ -5,16 +5,15 @@ use std::path::Path;
 
 use serde_json::json;
 
-use bolted_joint::frf::write_uff58;
 use bolted_joint::identify::space::{Answer, Answers, ChainStudy};
-use bolted_joint::respond::{to_csv, with_noise};
+use bolted_joint::respond::with_noise;
 use bolted_joint::study::StudyText;
 use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
 use super::super::error::CliError;
-use super::super::output::{CSV, Ending, Wrote, check_outputs, print, tell_link, warn, write_file};
+use super::super::output::{CSV, Ending, Wrote, check_outputs, print, warn, write_file};
 use super::picture::{Picture, also};
-use super::{Format, RespondArguments, RespondNoise, format, output, pollution};
+use super::{RespondArguments, RespondNoise, format, output, pollution};
 
 /// 97.5 % quantile of the normal distribution.
 const QUANTILE: f64 = 1.96;
@@ -63,14 +62,7 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
     let drawing = Picture::drawn(picture, &study.name, text.text(), &[], || {
         figure(&study.name, &answers)
     })?;
-    match format {
-        Format::Table => write_file(output, to_csv(&measured).as_bytes())?,
-        Format::Universal => {
-            let description = format!("computed, not measured: {}", study.name);
-            write_uff58(&measured, output, &description)?;
-            tell_link(output);
-        }
-    }
+    format.write(&measured, output, &study.name)?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
     }

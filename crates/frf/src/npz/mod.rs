@@ -2,6 +2,7 @@
 
 mod archive;
 mod array;
+mod write;
 
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
@@ -12,6 +13,8 @@ use crate::structure::{NamedMatrices, StructureError};
 use crate::{FrfError, FrfReading, ReadOptions};
 
 use archive::Archive;
+
+pub use write::to_npz;
 
 /// Reads the functions of a NumPy archive (`.npz`), stored or deflated.
 ///

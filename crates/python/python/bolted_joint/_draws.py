@@ -62,7 +62,13 @@ class Draws:
             raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file of draws."""
+        """Writes the file of draws.
+
+        Parameters
+        ----------
+        path : path
+            The file to write.
+        """
         path_of(path)
         Path(path).write_text(self._text, encoding="utf-8")
 

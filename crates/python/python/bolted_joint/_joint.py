@@ -83,6 +83,11 @@ class Joint:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the joint file.
 
+        Parameters
+        ----------
+        path : path
+            The file to write, such as ``NAME.joint.json``.
+
         Raises
         ------
         BoltedJointError

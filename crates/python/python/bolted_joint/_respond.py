@@ -97,11 +97,40 @@ class Response:
         return values
 
     def complex(self, name: str) -> NDArray[np.complex128]:
-        """A complex number in each row, of which the table has ``NAME real`` and ``NAME imaginary``."""
+        """A complex number in each row, of which the table has ``NAME real`` and ``NAME imaginary``.
+
+        Parameters
+        ----------
+        name : str
+            The name of both columns, without ``real``.
+
+        Returns
+        -------
+        ndarray of complex, shape (rows,)
+            In the columns' unit.
+        """
         return self[f"{name} real"] + 1j * self[f"{name} imaginary"]
 
     def select(self, lap: str | None = None, level: float | None = None) -> "Response":
-        """The rows of one lap, or of one level, or of both."""
+        """The rows of one lap, or of one level, or of both.
+
+        Parameters
+        ----------
+        lap : str, optional
+            The lap's name; all laps if it is left out.
+        level : float, optional
+            A value of the column ``level``; all levels if it is left out.
+
+        Returns
+        -------
+        Response
+            The same columns, with these rows.
+
+        Raises
+        ------
+        BoltedJointError
+            If there is no such lap or level.
+        """
         rows = np.full(len(self), True)
         if lap is not None:
             if lap not in self.laps:

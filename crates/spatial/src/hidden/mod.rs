@@ -8,6 +8,7 @@
 //! S⁻¹ = W − W U M⁻¹ Uᴴ W, F = 2 Re Σ Jᴴ S⁻¹ J, g = 2 Re Σ Jᴴ S⁻¹ e.
 
 mod choice;
+mod compare;
 mod follow;
 mod held;
 mod model;
@@ -37,6 +38,7 @@ use crate::problem::{Problem, Unknowns};
 use crate::side::MOTIONS;
 
 /// The squares of everything that was measured.
+#[derive(Clone)]
 pub(crate) struct Beside<'p> {
     problem: &'p Problem,
     nodes: Problem,

@@ -13,6 +13,7 @@ const LEAST: f64 = 1e-4;
 const FAINT: f64 = 1e-4;
 
 /// Of the assembly's functions, and of those of the substructures at each line.
+#[derive(Clone)]
 pub(super) struct Grids {
     pub(super) assembly: Grid,
     pub(super) own: [Vec<Grid>; 2],

@@ -2,7 +2,7 @@
 //! lines, then at more.
 
 use super::Beside;
-use super::held::AtMore;
+use super::compare::{Comparison, Start};
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
@@ -29,17 +29,13 @@ const EXPECTED: f64 = 1.5;
 /// Starts that are followed before low frequencies are asked, and there.
 const AT_FIRST: usize = 2;
 
-/// Likewise where the functions may have other joints, unless noise clearly explains one; and of how many most may agree there.
-const COMPARED: usize = 6;
-const ENOUGH: usize = 4;
-
 /// Lines of low frequencies, one of so many; and the least of them.
 const LOW: [usize; 2] = [8, 4];
 const LOW_MIN: usize = LINES;
 
 /// The lowest of the searches at a few lines, how many starts were tried and how many came as low. None is tried after one that
 /// noise and budget explain as chance has it, or after two that agree on what is not far above. Where the functions may have other
-/// joints, that two agree says little: what is left has to be what noise leaves of the assembly by itself.
+/// joints, several are compared.
 ///
 /// A soft joint is seen at low frequencies alone: above, what all lines say of it is the noise of the substructures. So where the
 /// first searches come to nothing, low frequencies are searched by themselves, and all from where these lead. `None` where the likely
@@ -56,20 +52,16 @@ pub(crate) fn searched_beside(
         noise,
     };
     let begun = given.starts()?;
-    let is_in_doubt = problem.has_few_functions();
     let first = begun.first().ok_or(SpatialError::NoStart)?;
     let few = given.few(first)?;
     let squares = Beside::of(&few, level, noise, first)?;
+    let mut starts = lowest_first(&squares, begun).into_iter();
+    if problem.has_few_functions() {
+        return compared(Comparison::new(given, squares), starts, extent);
+    }
     let mut searches = Searches::new(given, squares);
-    let mut starts = searches.lowest_first(begun).into_iter();
-    let at_first = if is_in_doubt { COMPARED } else { AT_FIRST };
-    if !searches.follow(starts.by_ref().take(at_first)) && searches.held.is_none() {
-        let low = given.low();
-        let mut of_low = low.iter().filter_map(|problem| {
-            let own = Given { problem, ..given };
-            own.held().ok().flatten()
-        });
-        if !of_low.any(|found| searches.holds(found)) {
+    if !searches.follow(starts.by_ref().take(AT_FIRST)) {
+        if !given.of_low().any(|found| searches.holds(found)) {
             match extent {
                 Extent::First => return Ok(None),
                 Extent::Likely => {}
@@ -83,6 +75,34 @@ pub(crate) fn searched_beside(
         }
     }
     searches.ended().map(Some)
+}
+
+/// Likewise of several that are compared.
+fn compared(
+    mut searches: Comparison<'_>,
+    mut starts: impl Iterator<Item = Start>,
+    extent: Extent<'_>,
+) -> Result<Option<Searched>, SpatialError> {
+    searches.follow(&mut starts);
+    let mut at_more = searches.at_more();
+    if !at_more.as_ref().is_ok_and(|own| own.is_explained) {
+        searches.take_of_low();
+        at_more = searches.at_more();
+    }
+    if !at_more.as_ref().is_ok_and(|own| own.is_explained) {
+        match extent {
+            Extent::First => return Ok(None),
+            Extent::Likely => {}
+            Extent::Unless(elsewhere) => {
+                if elsewhere() {
+                    return Ok(None);
+                }
+                searches.follow(&mut starts);
+                at_more = searches.at_more();
+            }
+        }
+    }
+    searches.ended(at_more.ok()).map(Some)
 }
 
 /// What is searched.
@@ -122,28 +142,45 @@ impl<'p> Given<'p> {
         counts.map(of).collect()
     }
 
+    /// What noise explains at low frequencies, if likely starts lead there.
+    pub(super) fn of_low(self) -> impl Iterator<Item = Unknowns> {
+        self.low().into_iter().filter_map(move |problem| {
+            let own = Given {
+                problem: &problem,
+                ..self
+            };
+            own.likely().ok().flatten()
+        })
+    }
+
     /// What noise explains at these lines, if likely starts lead there.
-    fn held(&self) -> Result<Option<Unknowns>, SpatialError> {
+    fn likely(&self) -> Result<Option<Unknowns>, SpatialError> {
         let begun = self.starts()?;
         let first = begun.first().ok_or(SpatialError::NoStart)?;
         let few = self.few(first)?;
         let squares = Beside::of(&few, self.level, self.noise, first)?;
+        let starts = lowest_first(&squares, begun).into_iter();
         let mut searches = Searches::new(*self, squares);
-        let starts = searches.lowest_first(begun).into_iter();
         searches.follow(starts.take(AT_FIRST));
-        Ok(searches.held.map(|held| held.unknowns))
+        Ok(searches.held)
     }
+}
+
+fn lowest_first(squares: &Beside<'_>, begun: Vec<Unknowns>) -> Vec<Start> {
+    let known = begun.into_iter();
+    let known = known.filter_map(|start| Some((squares.cost_as_measured(&start).ok()?, start)));
+    let mut starts: Vec<Start> = known.collect();
+    starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    starts
 }
 
 /// What came of the searches so far.
 struct Searches<'p> {
     given: Given<'p>,
     squares: Beside<'p>,
-    /// Whether the functions may have other joints as well.
-    is_in_doubt: bool,
     best: Option<Fit>,
     /// What noise explains at the lines of the estimate.
-    held: Option<AtMore>,
+    held: Option<Unknowns>,
     /// Whether noise does not explain there what the lowest leaves.
     is_refuted: bool,
     tried: usize,
@@ -155,21 +192,12 @@ impl<'p> Searches<'p> {
         Self {
             given,
             squares,
-            is_in_doubt: given.problem.has_few_functions(),
             best: None,
             held: None,
             is_refuted: false,
             tried: 0,
             agreeing: 0,
         }
-    }
-
-    fn lowest_first(&self, begun: Vec<Unknowns>) -> Vec<(f64, Unknowns)> {
-        let mut starts: Vec<(f64, Unknowns)> = (begun.into_iter())
-            .filter_map(|start| Some((self.squares.cost_as_measured(&start).ok()?, start)))
-            .collect();
-        starts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        starts
     }
 
     /// Follows one after the other until there is no need of more; says whether that is so.
@@ -182,15 +210,13 @@ impl<'p> Searches<'p> {
             };
             let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);
             self.agreeing = agreeing_with(self.agreeing, lowest, fit.cost);
-            let own = self.is_in_doubt.then(|| fit.clone());
             if fit.cost < lowest {
                 self.best = Some(fit);
                 self.is_refuted = false;
             }
             let is_enough =
                 |best: &&Fit| self.explains(best) && (best.cost < by_chance || self.agreeing > 1);
-            // the lowest of a few lines need not be that of more
-            let enough = own.as_ref().or(self.best.as_ref()).filter(is_enough);
+            let enough = self.best.as_ref().filter(is_enough);
             let enough = enough.map(|best| best.unknowns.clone());
             if let Some(unknowns) = enough {
                 if self.holds(unknowns) {
@@ -202,17 +228,10 @@ impl<'p> Searches<'p> {
         false
     }
 
-    /// Whether noise clearly explains what these leave at the lines of the estimate, too. The search is at its end there.
+    /// Whether noise explains what these leave at the lines of the estimate, too. The search is at its end there.
     fn holds(&mut self, unknowns: Unknowns) -> bool {
-        let Ok(own) = AtMore::of(&self.given, unknowns, self.is_in_doubt) else {
-            return false;
-        };
-        let is_clear = own.is_clear;
-        let is_lower = self.held.as_ref().is_none_or(|held| own.left < held.left);
-        if own.is_explained && is_lower {
-            self.held = Some(own);
-        }
-        is_clear
+        self.held = self.given.held(unknowns).ok().flatten();
+        self.held.is_some()
     }
 
     /// Whether noise and budget explain what is left, or nearly so.
@@ -225,15 +244,13 @@ impl<'p> Searches<'p> {
     fn ended(mut self) -> Result<Searched, SpatialError> {
         let mut best = self.best.take().ok_or(SpatialError::NoStart)?;
         match self.held.take() {
-            Some(held) => {
-                best.unknowns = held.unknowns;
+            Some(unknowns) => {
+                best.unknowns = unknowns;
                 best.has_converged = true;
             }
             None => {
                 let is_known = self.explains(&best) && !self.is_refuted;
-                let are_enough = !self.is_in_doubt || self.tried >= ENOUGH;
-                let do_agree = are_enough && 2 * self.agreeing > self.tried;
-                best.has_converged &= is_known || do_agree;
+                best.has_converged &= is_known || 2 * self.agreeing > self.tried;
             }
         }
         Ok(Searched {
@@ -262,7 +279,11 @@ pub(crate) fn estimated(
 }
 
 /// From one start, whose squares are known: with noise as large as they are at first, which is let down to what it is.
-fn let_down(squares: &mut Beside<'_>, start: Unknowns, residual: f64) -> Result<Fit, SpatialError> {
+pub(super) fn let_down(
+    squares: &mut Beside<'_>,
+    start: Unknowns,
+    residual: f64,
+) -> Result<Fit, SpatialError> {
     let numbers = squares.numbers() as f64;
     squares.begin();
     let mut unknowns = start;

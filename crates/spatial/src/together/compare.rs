@@ -8,14 +8,13 @@ use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::Normal;
 use crate::parallel::over_each;
-use crate::rivals::{as_good, rivals};
+use crate::problem::Unknowns;
+use crate::rivals::{DECISIVE, as_good, rivals};
 use crate::search::{AS_LOW_BESIDE_ERRORS, CLEARLY, NOTHING, by_chance};
+use crate::valley::{self, LOWER};
 
 /// Starts that are compared: beside errors of the set-up, and alone.
 const COMPARED: [usize; 2] = [5, 2];
-
-/// How far χ² of other joints is above that of one that noise clearly explains where they are out of the question: five deviations.
-const DECISIVE: f64 = 25.0;
 
 /// What is compared where the functions may have other joints: from each start in one way.
 pub(super) fn compared(beside: &[Start], alone: &[Start]) -> Vec<(Way, Start)> {
@@ -26,9 +25,9 @@ pub(super) fn compared(beside: &[Start], alone: &[Start]) -> Vec<(Way, Start)> {
 }
 
 impl Searches<'_> {
-    /// Follows all, unless noise clearly explains the first; says whether noise explains the lowest, or several agree where its level
-    /// is not stated.
-    pub(super) fn compare(&mut self, tries: Vec<(Way, Start)>) -> bool {
+    /// Follows all, unless noise clearly explains the first and nothing else is beside it; says whether noise explains the lowest, or
+    /// several agree where its level is not stated.
+    pub(super) fn compare(&mut self, tries: Vec<(Way, Start)>) -> Result<bool, SpatialError> {
         let (first, others) = tries.split_at(tries.len().min(1));
         for tries in [first, others] {
             let ended = over_each(tries, |(way, (residual, start))| {
@@ -47,10 +46,34 @@ impl Searches<'_> {
             });
             self.checked.extend(at_more.into_iter().flatten());
             if self.is_clear() {
-                return true;
+                self.look_beside()?;
+                if self.rivals()? == 0 {
+                    return Ok(true);
+                }
             }
         }
-        self.is_confirmed()
+        if !self.is_clear() {
+            self.look_beside()?;
+        }
+        Ok(self.is_confirmed())
+    }
+
+    /// Follows searches from beside the lowest of them.
+    fn look_beside(&mut self) -> Result<(), SpatialError> {
+        let Some(lowest) = self.lowest_checked() else {
+            return Ok(());
+        };
+        let information = |at: &Unknowns| Ok(Normal::of(&self.lines, at, self.level)?.information);
+        let beside = valley::beside(lowest, information, |start| {
+            Fit::of(&self.lines, start.clone(), self.level, Effort::Near)
+        })?;
+        // one that the others did not see
+        if beside.iter().any(|fit| fit.cost < lowest.cost - LOWER) {
+            self.tried += 1;
+            self.agreeing = 1;
+        }
+        self.checked.extend(beside);
+        Ok(())
     }
 
     /// Those that are not far above the lowest, and of which none came to where another one did.

@@ -76,7 +76,7 @@ pub(crate) fn together(
         Extent::First | Extent::Unless(_) => AT_FIRST,
     };
     let is_enough = match is_in_doubt {
-        true => searches.compare(compared(&beside, &alone)),
+        true => searches.compare(compared(&beside, &alone))?,
         false => searches.follow(tries.by_ref().take(at_first).flatten()),
     };
     if !is_enough {
@@ -95,7 +95,7 @@ pub(crate) fn together(
         };
         let again = again.into_iter().take(AT_FIRST);
         if is_in_doubt {
-            searches.compare(again.map(|start| (Way::Straight, start)).collect());
+            searches.compare(again.map(|start| (Way::Straight, start)).collect())?;
         } else if is_all {
             let both = |start: Start| [(Way::Straight, start.clone()), (Way::Curved, start)];
             let _ = searches.follow(again.flat_map(both))

@@ -31,7 +31,7 @@ impl Loads {
             }
         }
         free.tolerances = None;
-        let patterns = Patterns::of(&free, None);
+        let patterns = Patterns::of_joints(&free);
         let grid = Grid::new(self.weights.clone());
         let count = free.joint_count();
         let mut values = vec![0.0; count];

@@ -114,7 +114,7 @@ pub(crate) fn scores(
             .zip(part)
             .for_each(|(all, own)| all.add(own));
     }
-    let patterns = Patterns::of(&thin, Some(&assembled));
+    let patterns = Patterns::of(&thin, &assembled)?;
     let normal = Normal::of(&thin, unknowns, level)?;
     let Some(of_others) = Cholesky::new(normal.information) else {
         return Ok(Vec::new());

@@ -89,7 +89,7 @@ pub(crate) fn bend(
         Assembled::new(problem, &ahead)?,
     ];
     let grid = Grid::new(problem.weights(deviations));
-    let patterns = Patterns::of(problem, Some(&here));
+    let patterns = Patterns::of(problem, &here)?;
     let parts = over_lines(problem.frequency_hz.len(), |lines| {
         let mut slopes = Slopes::default();
         for line in lines {
@@ -123,7 +123,7 @@ impl Normal {
     ) -> Result<Self, SpatialError> {
         let assembled = Assembled::new(problem, unknowns)?;
         let grid = Grid::new(problem.weights(deviations));
-        let patterns = Patterns::of(problem, Some(&assembled));
+        let patterns = Patterns::of(problem, &assembled)?;
         let parts = over_lines(problem.frequency_hz.len(), |lines| {
             of_lines(problem, &assembled, &grid, lines)
         })?;
@@ -205,7 +205,7 @@ mod tests {
         let mut expected = Normal::zeros(count);
         for line in 0..problem.frequency_hz.len() {
             let own = assembled.line(line).unwrap();
-            let derivatives = assembled.derivatives(line, &own);
+            let derivatives = assembled.derivatives(line, &own).unwrap();
             for (row, one) in problem.observed.iter().enumerate() {
                 let weight = 2.0 / (deviations[row] * deviations[row]);
                 let error = one.values[line] - own.functions[row];

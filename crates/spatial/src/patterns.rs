@@ -9,6 +9,7 @@ use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
 use crate::dyads::Group;
+use crate::error::SpatialError;
 use crate::links::Sought;
 use crate::normal::Normal;
 use crate::problem::Problem;
@@ -153,55 +154,57 @@ impl Sums {
 }
 
 impl Patterns {
-    /// Of the joints that are sought; with the errors of the set-up where they are unknown and the assembly is given.
-    pub(crate) fn of(problem: &Problem, assembled: Option<&Assembled<'_>>) -> Self {
+    /// Of the joints that are sought alone.
+    pub(crate) fn of_joints(problem: &Problem) -> Self {
         let (mut of_joints, mut places) = (Vec::new(), Vec::new());
-        let sought = problem.links.sought();
-        for (number, joint) in sought.iter().enumerate() {
+        for (number, joint) in problem.links.sought().iter().enumerate() {
             let count = joint.model.count();
             for (n, basis) in joint.model.bases().iter().enumerate() {
-                let own = (0..36)
-                    .map(|place| (36 * number + place, basis[(place / 6, place % 6)]))
-                    .filter(|(_, factor)| *factor != 0.0);
-                of_joints.push(Pattern(own.collect()));
+                let own = (0..36).map(|place| (36 * number + place, basis[(place / 6, place % 6)]));
+                of_joints.push(Pattern::new(own));
                 places.push([joint.first + n, joint.first + count + n]);
-            }
-        }
-        let mut of_set_up = Vec::new();
-        if let Some(assembled) = assembled.filter(|_| problem.tolerances.is_some()) {
-            let mut first = 36 * sought.len();
-            let counts = problem.sides.iter().flat_map(|side| {
-                let [rows, columns] = [side.responses.len(), side.references.len()];
-                let of_hits = side.hits_anew.map(|_| columns);
-                let all = [rows, columns].into_iter().chain(of_hits);
-                all.map(|own| own * problem.motions())
-            });
-            for (changes, count) in assembled.changes().zip(counts) {
-                for change in changes {
-                    // θ_pq at p·right + q: row by row
-                    let width = change.ncols();
-                    let own = (0..count)
-                        .map(|place| (first + place, change[(place / width, place % width)].re))
-                        .filter(|(_, factor)| *factor != 0.0);
-                    of_set_up.push(Pattern(own.collect()));
-                }
-                first += count;
             }
         }
         Self {
             of_joints,
             places,
-            of_set_up,
+            of_set_up: Vec::new(),
             first_error: problem.joint_count(),
         }
     }
 
-    /// Of the joints that are sought, and these of the errors of the set-up.
+    /// Likewise, and these of the errors of the set-up.
     pub(crate) fn beside(problem: &Problem, of_set_up: Vec<Pattern>) -> Self {
         Self {
             of_set_up,
-            ..Self::of(problem, None)
+            ..Self::of_joints(problem)
         }
+    }
+
+    /// Likewise, and those of the errors of the set-up where they are unknown.
+    pub(crate) fn of(problem: &Problem, assembled: &Assembled<'_>) -> Result<Self, SpatialError> {
+        if problem.tolerances.is_none() {
+            return Ok(Self::of_joints(problem));
+        }
+        let mut of_set_up = Vec::new();
+        let mut first = 36 * problem.links.sought().len();
+        let counts = problem.sides.iter().flat_map(|side| {
+            let [rows, columns] = [side.responses.len(), side.references.len()];
+            let of_hits = side.hits_anew.map(|_| columns);
+            let all = [rows, columns].into_iter().chain(of_hits);
+            all.map(|own| own * problem.motions())
+        });
+        for (changes, count) in assembled.changes()?.iter().zip(counts) {
+            for change in changes {
+                // θ_pq at p·right + q: row by row
+                let width = change.ncols();
+                let own = (0..count)
+                    .map(|place| (first + place, change[(place / width, place % width)].re));
+                of_set_up.push(Pattern::new(own));
+            }
+            first += count;
+        }
+        Ok(Self::beside(problem, of_set_up))
     }
 
     /// Those of the joints, then those of the set-up.

@@ -108,18 +108,24 @@ impl Placed {
     }
 }
 
-/// T_u (motions × responses) and T_f (references × motions), and how they change with each error of the set-up: of sensors, then
-/// of impacts.
+/// T_u (motions × responses) and T_f (references × motions).
 #[derive(Clone, Debug)]
 pub(crate) struct Transformations {
     pub(crate) motions: DMatrix<Complex64>,
     pub(crate) loads: DMatrix<Complex64>,
-    pub(crate) motions_changes: Vec<DMatrix<Complex64>>,
-    pub(crate) loads_changes: Vec<DMatrix<Complex64>>,
-    /// What loads of the assembly's hits have beyond those of the structure's own test, motions × references, where they have any;
-    /// and how that changes with each error of a hit.
+    /// What loads of the assembly's hits have beyond those of the structure's own test, motions × references, where they have any.
     pub(crate) struck: Option<DMatrix<Complex64>>,
-    pub(crate) struck_changes: Vec<DMatrix<Complex64>>,
+}
+
+/// How these change with each error of the set-up.
+#[derive(Debug, Default)]
+pub(crate) struct Changes {
+    /// T_u with errors of sensors.
+    pub(crate) motions: Vec<DMatrix<Complex64>>,
+    /// T_f with errors of impacts.
+    pub(crate) loads: Vec<DMatrix<Complex64>>,
+    /// What is struck beyond with errors of the assembly's hits, where these are hit anew.
+    pub(crate) struck: Option<Vec<DMatrix<Complex64>>>,
 }
 
 /// What the functions of a side with a rigid interface follow from, Y = R_u h R_fᵀ: those between motions and loads of the
@@ -299,41 +305,42 @@ impl Side {
         let mut all = Transformations {
             motions: DMatrix::zeros(motions, rows),
             loads: DMatrix::zeros(columns, motions),
-            motions_changes: Vec::new(),
-            loads_changes: Vec::new(),
             struck: None,
-            struck_changes: Vec::new(),
         };
         let errors = self.errors_of_each(errors);
         for (n, (placed, [errors, of_hits])) in self.interfaces.iter().zip(&errors).enumerate() {
-            let [first_row, first_column] = placed.first;
-            // zero for what is no channel or impact of this interface
-            let by_rows = |own: &DMatrix<f64>| {
-                let mut wide = DMatrix::zeros(motions, rows);
-                let mut place = wide.view_mut((MOTIONS * n, first_row), own.shape());
-                place.copy_from(&own.map(Complex64::from));
-                wide
-            };
-            let by_columns = |own: &DMatrix<f64>| {
-                let mut wide = DMatrix::zeros(columns, motions);
-                let own = own.transpose();
-                let mut place = wide.view_mut((first_column, MOTIONS * n), own.shape());
-                place.copy_from(&own.map(Complex64::from));
-                wide
-            };
             let set_up = match &placed.interface {
                 Interface::Points(set_up) => set_up,
                 Interface::Node(own) => {
                     let own = DMatrix::identity(MOTIONS, MOTIONS).select_columns(&own.rows());
-                    all.motions += by_rows(&own);
-                    all.loads += by_columns(&own);
+                    all.motions += self.by_rows(n, &own);
+                    all.loads += self.by_columns(n, &own);
                     continue;
                 }
             };
-            let displaced = set_up.displaced(errors);
-            let point = displaced
-                .and_then(|set_up| VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal))
-                .map_err(|source| placed.refused(source))?;
+            let point = placed.seen_by(set_up, errors)?;
+            all.motions += self.by_rows(n, point.motions_of_channels());
+            all.loads += self.by_columns(n, &point.forces_of_loads().transpose());
+            if let Some(own) = placed.struck(of_hits) {
+                let none = || DMatrix::zeros(motions, columns);
+                *all.struck.get_or_insert_with(none) += self.by_hits(n, &own);
+            }
+        }
+        Ok(all)
+    }
+
+    /// How the transformations change there.
+    pub(crate) fn changes(&self, errors: &[f64]) -> Result<Changes, OfInterface> {
+        let mut all = Changes {
+            struck: self.hits_anew.map(|_| Vec::new()),
+            ..Changes::default()
+        };
+        let errors = self.errors_of_each(errors);
+        for (n, (placed, [errors, _])) in self.interfaces.iter().zip(&errors).enumerate() {
+            let Interface::Points(set_up) = &placed.interface else {
+                continue;
+            };
+            let point = placed.seen_by(set_up, errors)?;
             let mut by_channels = point.transformation_derivatives(Role::Channel);
             let mut by_impacts = point.transformation_derivatives(Role::Impact);
             let own = by_channels.len();
@@ -345,22 +352,46 @@ impl Side {
                     impacts.by_rotation_vectors(&mut by_impacts, &errors[own..])
                 });
             by_vectors.map_err(|source| placed.refused(source))?;
-            all.motions += by_rows(point.motions_of_channels());
-            all.loads += by_columns(&point.forces_of_loads().transpose());
-            all.motions_changes.extend(by_channels.iter().map(by_rows));
-            all.loads_changes.extend(by_impacts.iter().map(by_columns));
-            let by_hits = |own: &DMatrix<f64>| by_columns(&own.transpose()).transpose();
-            if let Some(own) = placed.struck(of_hits) {
-                let none = || DMatrix::zeros(motions, columns);
-                *all.struck.get_or_insert_with(none) += by_hits(&own);
-            }
-            if self.hits_anew.is_some() {
-                let hits = placed.hits();
-                (all.struck_changes).extend(hits.iter().map(|(_, own)| by_hits(own)));
+            (all.motions).extend(by_channels.iter().map(|own| self.by_rows(n, own)));
+            (all.loads).extend(by_impacts.iter().map(|own| self.by_columns(n, own)));
+            if let Some(struck) = &mut all.struck {
+                struck.extend(placed.hits().iter().map(|(_, own)| self.by_hits(n, own)));
             }
         }
         Ok(all)
     }
+
+    /// Motions × responses of an interface among those of all, zero for what is none of its channels.
+    fn by_rows(&self, interface: usize, own: &DMatrix<f64>) -> DMatrix<Complex64> {
+        let first = [MOTIONS * interface, self.interfaces[interface].first[0]];
+        placed_at(own, first, [self.motions(), self.responses.len()])
+    }
+
+    /// The transpose of motions × references likewise.
+    fn by_columns(&self, interface: usize, own: &DMatrix<f64>) -> DMatrix<Complex64> {
+        let first = [self.interfaces[interface].first[1], MOTIONS * interface];
+        let size = [self.references.len(), self.motions()];
+        placed_at(&own.transpose(), first, size)
+    }
+
+    /// The transpose of references × motions likewise.
+    fn by_hits(&self, interface: usize, own: &DMatrix<f64>) -> DMatrix<Complex64> {
+        let first = [MOTIONS * interface, self.interfaces[interface].first[1]];
+        let size = [self.motions(), self.references.len()];
+        placed_at(&own.transpose(), first, size)
+    }
+}
+
+/// A matrix as a block of another one.
+fn placed_at(
+    own: &DMatrix<f64>,
+    [row, column]: [usize; 2],
+    size: [usize; 2],
+) -> DMatrix<Complex64> {
+    let mut wide = DMatrix::zeros(size[0], size[1]);
+    let mut place = wide.view_mut((row, column), own.shape());
+    place.copy_from(&own.map(Complex64::from));
+    wide
 }
 
 impl Placed {
@@ -370,6 +401,14 @@ impl Placed {
             Interface::Node(_) => None,
             Interface::Points(set_up) => Some((self, set_up)),
         }
+    }
+
+    /// The virtual point with these errors of its sensors and impacts.
+    fn seen_by(&self, set_up: &SetUp, errors: &[f64]) -> Result<VirtualPoint, OfInterface> {
+        let displaced = set_up.displaced(errors);
+        displaced
+            .and_then(|set_up| VirtualPoint::new(set_up, &Weights::Equal, &Weights::Equal))
+            .map_err(|source| self.refused(source))
     }
 
     pub(crate) fn refused(&self, source: VirtualPointError) -> OfInterface {

@@ -268,7 +268,7 @@ impl Loads {
                 usable,
                 scales,
                 own,
-                patterns: Patterns::of(problem, None),
+                patterns: Patterns::of_joints(problem),
             })
         })
     }

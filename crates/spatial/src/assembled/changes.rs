@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use super::{Assembled, Line};
 use crate::dyads::Group;
+use crate::error::SpatialError;
 use crate::patterns::{Patterns, Places};
 
 impl Assembled<'_> {
@@ -66,7 +67,7 @@ impl Assembled<'_> {
             });
             // L Y likewise
             let by_loads = self.by_loads_of(side, self.measured(line), &left);
-            let of_hits = (!own.struck_changes.is_empty()).then(|| Group {
+            let of_hits = self.problem.sides[side].hits_anew.map(|_| Group {
                 left: &by_loads * &own.loads,
                 right: self.with_own(side, DMatrix::zeros(functions.ncols(), right.ncols())),
             });
@@ -94,22 +95,27 @@ impl Assembled<'_> {
     }
 
     /// How the transformations change with each error of the set-ups: in the order of [`Self::dyads`], from those of a's sensors on.
-    pub(crate) fn changes(&self) -> impl Iterator<Item = &[DMatrix<Complex64>]> {
-        let sides = self.transformations.iter();
-        sides.flat_map(|own| {
-            let of_hits = Some(&own.struck_changes[..]).filter(|own| !own.is_empty());
-            let of_all = [&own.motions_changes[..], &own.loads_changes[..]];
-            of_all.into_iter().chain(of_hits)
-        })
+    pub(crate) fn changes(&self) -> Result<Vec<Vec<DMatrix<Complex64>>>, SpatialError> {
+        let mut all = Vec::new();
+        for (side, errors) in self.problem.sides.iter().zip(&self.errors) {
+            let own = side.changes(errors)?;
+            all.extend([own.motions, own.loads]);
+            all.extend(own.struck);
+        }
+        Ok(all)
     }
 
     /// Derivatives of the observed functions by each unknown: observed × unknowns.
-    pub(crate) fn derivatives(&self, line: usize, at: &Line) -> DMatrix<Complex64> {
+    pub(crate) fn derivatives(
+        &self,
+        line: usize,
+        at: &Line,
+    ) -> Result<DMatrix<Complex64>, SpatialError> {
         let observed = &self.problem.observed;
         let mut derivatives = DMatrix::zeros(observed.len(), self.problem.count());
         let j_omega = Complex64::new(0.0, self.problem.omega(line));
         let groups = self.dyads(line, at);
-        let patterns = Patterns::of(self.problem, Some(self));
+        let patterns = Patterns::of(self.problem, self)?;
         for (unknowns, pattern) in patterns.all() {
             for (row, one) in observed.iter().enumerate() {
                 let sum = pattern.of(&groups, one.at);
@@ -123,6 +129,6 @@ impl Assembled<'_> {
                 }
             }
         }
-        derivatives
+        Ok(derivatives)
     }
 }

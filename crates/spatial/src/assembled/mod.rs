@@ -16,6 +16,8 @@ use crate::side::Transformations;
 pub(crate) struct Assembled<'p> {
     problem: &'p Problem,
     transformations: [Transformations; 2],
+    /// Errors of the set-up of each side.
+    errors: [Vec<f64>; 2],
     stiffness: DMatrix<f64>,
     damping: DMatrix<f64>,
 }
@@ -62,6 +64,7 @@ impl<'p> Assembled<'p> {
         Ok(Self {
             problem,
             transformations: [of(0)?, of(1)?],
+            errors,
             stiffness,
             damping,
         })

@@ -9,7 +9,7 @@ fn compare_with_differences(problem: &Problem) {
     let at = unknowns(problem).0;
     let assembled = Assembled::new(problem, &Unknowns(at.clone())).unwrap();
     let line = assembled.line(1).unwrap();
-    let derivatives = assembled.derivatives(1, &line);
+    let derivatives = assembled.derivatives(1, &line).unwrap();
     let scale = line.functions.iter().map(|y| y.norm()).fold(0.0, f64::max);
     for unknown in 0..problem.count() {
         let step = match unknown < problem.joint_count() {

@@ -53,7 +53,7 @@ fn triangle(
     let mut triangle = DMatrix::<f64>::zeros(0, count);
     for line in 0..problem.frequency_hz.len() {
         let found = assembled.line(line)?;
-        let derivatives = assembled.derivatives(line, &found);
+        let derivatives = assembled.derivatives(line, &found)?;
         let before = triangle.nrows();
         let stacked = DMatrix::from_fn(before + 2 * rows, count, |i, column| {
             if i < before {

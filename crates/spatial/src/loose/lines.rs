@@ -89,7 +89,7 @@ impl Loosened {
         Self {
             lines: lines.collect(),
             scales: own.iter().map(|&motion| scales[motion]).collect(),
-            patterns: Patterns::of(problem, None),
+            patterns: Patterns::of_joints(problem),
             own,
         }
     }

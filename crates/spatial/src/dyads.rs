@@ -41,12 +41,13 @@ pub(crate) type Placed<'g> = [(usize, &'g Group)];
 pub(crate) fn information(grid: &Grid, groups: &[Group]) -> DMatrix<Complex64> {
     let (count, placed) = side_by_side(groups);
     let mut all = DMatrix::zeros(count, count);
-    add_information(grid, &placed, &mut all);
+    add_below(grid, &placed, &mut all);
+    mirror(&mut all);
     all
 }
 
 /// How many unknowns there are, and the groups one after the other.
-fn side_by_side(groups: &[Group]) -> (usize, Vec<(usize, &Group)>) {
+pub(crate) fn side_by_side(groups: &[Group]) -> (usize, Vec<(usize, &Group)>) {
     let mut next = 0;
     let placed = groups.iter().map(|group| {
         let place = next;
@@ -57,38 +58,43 @@ fn side_by_side(groups: &[Group]) -> (usize, Vec<(usize, &Group)>) {
     (next, placed)
 }
 
-/// What [`information`] gives, added to `all`.
+/// What [`information`] gives, added to the lower triangle of `all`; groups stand in the order of their places. [`mirror`] does the
+/// rest when all is summed up.
 ///
 /// Both sums are products of real matrices: over the columns H = Σ_i w conj(y_q) y_u for all rows at once, and over the rows
 /// Σ_o conj(x_p) x_r H.
-pub(crate) fn add_information(grid: &Grid, groups: &Placed<'_>, all: &mut DMatrix<Complex64>) {
+pub(crate) fn add_below(grid: &Grid, groups: &Placed<'_>, all: &mut DMatrix<Complex64>) {
     let weights = grid.weights.transpose();
     for (s, &(first, one)) in groups.iter().enumerate() {
         for (t, &(second, other)) in groups.iter().enumerate().skip(s) {
-            let is_one = s == t;
             let [of_columns, turned] = over_columns(&one.right, &other.right, &weights);
-            let pairs = pairs([one, other], is_one);
+            let pairs = pairs([one, other], s == t);
             let [of_rows, sideways] = by_rows([one, other], &pairs);
             let mut even = &of_columns * &of_rows;
             even.gemm(-1.0, &turned, &sideways, 1.0);
             let mut odd = &of_columns * &sideways;
             odd.gemm(1.0, &turned, &of_rows, 1.0);
-            let width = other.right.nrows();
+            let (height, width) = (one.right.nrows(), other.right.nrows());
             for (pair, &[p, r]) in pairs.iter().enumerate() {
-                for q in 0..one.right.nrows() {
-                    let i = first + p * one.right.nrows() + q;
-                    for u in 0..width {
-                        let j = second + r * width + u;
-                        let place = (q * width + u, pair);
-                        let value = Complex64::new(even[place], odd[place]);
-                        all[(i, j)] += value;
-                        // what is mirrored in its own block is there already
-                        if !is_one || p != r {
-                            all[(j, i)] += value.conj();
-                        }
+                for q in 0..height {
+                    let mut column = all.column_mut(first + p * height + q);
+                    let own = column.rows_range_mut(second + r * width..second + (r + 1) * width);
+                    let of = |matrix: &DMatrix<f64>| q * width + pair * matrix.nrows();
+                    let (even, odd) = (&even.as_slice()[of(&even)..], &odd.as_slice()[of(&odd)..]);
+                    for ((own, even), odd) in own.into_iter().zip(even).zip(odd) {
+                        *own += Complex64::new(*even, -odd);
                     }
                 }
             }
+        }
+    }
+}
+
+/// What is above the diagonal, of a matrix that is Hermitian.
+pub(crate) fn mirror(all: &mut DMatrix<Complex64>) {
+    for j in 0..all.ncols() {
+        for i in 0..j {
+            all[(i, j)] = all[(j, i)].conj();
         }
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
-use crate::dyads::{Grid, descent, information, squares};
+use crate::dyads::{Grid, add_below, descent, side_by_side, squares};
 use crate::error::SpatialError;
 use crate::parallel::over_lines;
 use crate::patterns::{Patterns, Slopes, Sums};
@@ -130,7 +130,7 @@ impl Normal {
         let mut parts = parts.into_iter();
         let mut sums = parts.next().unwrap_or_default();
         parts.for_each(|part| sums.add(&part));
-        let mut normal = patterns.normal(problem.count(), &sums);
+        let mut normal = patterns.normal(problem.count(), sums);
         add_priors(problem, unknowns, &mut normal);
         Ok(normal)
     }
@@ -158,14 +158,20 @@ fn of_lines(
     lines: Range<usize>,
 ) -> Result<Sums, SpatialError> {
     let mut sums = Sums::default();
+    // memory of this size takes long to get for every line
+    let mut below = DMatrix::default();
     for line in lines {
         let found = assembled.line(line)?;
         let errors = residuals(problem, line, &found);
         let groups = assembled.dyads(line, &found);
+        let (count, placed) = side_by_side(&groups);
+        below.resize_mut(count, count, Complex64::ZERO);
+        below.fill(Complex64::ZERO);
+        add_below(grid, &placed, &mut below);
         sums.add_line(
             problem.omega(line),
             36 * problem.links.sought().len(),
-            &information(grid, &groups),
+            &below,
             &descent(grid, &groups, &errors),
             2.0 * squares(grid, &errors),
         );

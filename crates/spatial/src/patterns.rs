@@ -4,6 +4,8 @@
 //! transformation of its interface: both are weighted sums of dyads, with weights that no line changes. So the lines are summed
 //! first, and the weights applied once.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DMatrixView, DVector, DVectorViewMut};
 use num_complex::Complex64;
 
@@ -32,8 +34,19 @@ pub(crate) struct Patterns {
     of_joints: Vec<Pattern>,
     places: Vec<[usize; 2]>,
     of_set_up: Vec<Pattern>,
+    /// Errors that have their dyads among themselves, such as those of a side's sensors; as far as the sums over all lines need them.
+    blocks: Vec<Block>,
     /// The first error's unknown.
     first_error: usize,
+}
+
+/// Consecutive errors of a set-up.
+struct Block {
+    /// Places of their dyads, and of the errors among all of them.
+    dyads: Range<usize>,
+    errors: Range<usize>,
+    /// Of each dyad in each error.
+    weights: DMatrix<f64>,
 }
 
 impl Pattern {
@@ -79,7 +92,7 @@ impl Line {
 /// Sums over lines of M = Σ w conj(∂f/∂θ) ∂f/∂θ′ for all pairs of dyads, as far as the unknowns need them.
 #[derive(Default)]
 pub(crate) struct Sums {
-    /// Σ Re M
+    /// Σ Re M, its lower triangle.
     flat: DMatrix<f64>,
     /// Σ ω Im M, rows of the joints' dyads.
     tilted: DMatrix<f64>,
@@ -118,24 +131,36 @@ impl Slopes {
 }
 
 impl Sums {
-    /// A line with M and s; the first dyads are those of the joints.
+    /// A line with the lower triangle of M, and s; the first dyads are those of the joints.
     pub(crate) fn add_line(
         &mut self,
         omega: f64,
         of_joints: usize,
-        products: &DMatrix<Complex64>,
+        below: &DMatrix<Complex64>,
         slopes: &DVector<Complex64>,
         squares: f64,
     ) {
-        let own = products.rows(0, of_joints);
-        self.add(&Self {
-            flat: products.map(|sum| sum.re),
-            tilted: own.map(|sum| omega * sum.im),
-            curved: own.columns(0, of_joints).map(|sum| omega * omega * sum.re),
-            slopes: Slopes::default(),
-            squares,
-        });
+        if self.flat.is_empty() {
+            let count = below.nrows();
+            self.flat = DMatrix::zeros(count, count);
+            self.tilted = DMatrix::zeros(of_joints, count);
+            self.curved = DMatrix::zeros(of_joints, of_joints);
+        }
+        self.flat.zip_apply(below, |own, sum| *own += sum.re);
+        let of = |i: usize, j: usize| match i < j {
+            true => below[(j, i)].conj(),
+            false => below[(i, j)],
+        };
+        for i in 0..of_joints {
+            for j in 0..below.ncols() {
+                self.tilted[(i, j)] += omega * of(i, j).im;
+            }
+            for j in 0..of_joints {
+                self.curved[(i, j)] += omega * omega * of(i, j).re;
+            }
+        }
         self.slopes.add_line(omega, of_joints, slopes);
+        self.squares += squares;
     }
 
     pub(crate) fn add(&mut self, other: &Self) {
@@ -169,6 +194,7 @@ impl Patterns {
             of_joints,
             places,
             of_set_up: Vec::new(),
+            blocks: Vec::new(),
             first_error: problem.joint_count(),
         }
     }
@@ -186,7 +212,7 @@ impl Patterns {
         if problem.tolerances.is_none() {
             return Ok(Self::of_joints(problem));
         }
-        let mut of_set_up = Vec::new();
+        let (mut of_set_up, mut blocks) = (Vec::new(), Vec::new());
         let mut first = 36 * problem.links.sought().len();
         let counts = problem.sides.iter().flat_map(|side| {
             let [rows, columns] = [side.responses.len(), side.references.len()];
@@ -195,16 +221,27 @@ impl Patterns {
             all.map(|own| own * problem.motions())
         });
         for (changes, count) in assembled.changes()?.iter().zip(counts) {
-            for change in changes {
-                // θ_pq at p·right + q: row by row
-                let width = change.ncols();
-                let own = (0..count)
-                    .map(|place| (first + place, change[(place / width, place % width)].re));
-                of_set_up.push(Pattern::new(own));
-            }
+            // θ_pq at p·right + q: row by row
+            let weights = DMatrix::from_fn(count, changes.len(), |place, n| {
+                let width = changes[n].ncols();
+                changes[n][(place / width, place % width)].re
+            });
+            let before = of_set_up.len();
+            let own = weights.column_iter().map(|weights| {
+                Pattern::new(weights.iter().enumerate().map(|(n, own)| (first + n, *own)))
+            });
+            of_set_up.extend(own);
+            blocks.push(Block {
+                dyads: first..first + count,
+                errors: before..of_set_up.len(),
+                weights,
+            });
             first += count;
         }
-        Ok(Self::beside(problem, of_set_up))
+        Ok(Self {
+            blocks,
+            ..Self::beside(problem, of_set_up)
+        })
     }
 
     /// Those of the joints, then those of the set-up.
@@ -221,10 +258,11 @@ impl Patterns {
     }
 
     /// Jᴴ Σ⁻¹ J and Jᴴ Σ⁻¹ e: of ∂Y_C/∂k = −dyads, ∂Y_C/∂c = −jω dyads, ∂Y_C/∂η = dyads.
-    pub(crate) fn normal(&self, count: usize, sums: &Sums) -> Normal {
+    pub(crate) fn normal(&self, count: usize, mut sums: Sums) -> Normal {
+        sums.flat.fill_upper_triangle_with_lower_triangle();
         let mut normal = Normal::zeros(count);
         normal.cost = sums.squares;
-        let (joints, errors) = (&self.of_joints, &self.of_set_up);
+        let joints = &self.of_joints;
         let flat = combined(joints, &sums.flat, joints);
         let tilted = combined(joints, &sums.tilted, joints);
         let curved = combined(joints, &sums.curved, joints);
@@ -236,10 +274,9 @@ impl Patterns {
                 normal.information[(damping, of_other)] = 2.0 * curved[(k, l)];
             }
         }
-        let flat = combined(joints, &sums.flat, errors);
-        let tilted = combined(joints, &sums.tilted, errors);
-        let own = combined(errors, &sums.flat, errors);
-        for n in 0..errors.len() {
+        let flat = self.beside_joints(&sums.flat);
+        let tilted = self.beside_joints(&sums.tilted);
+        for n in 0..self.of_set_up.len() {
             let place = self.first_error + n;
             for (k, &[stiffness, damping]) in self.places.iter().enumerate() {
                 for (row, value) in [(stiffness, flat[(k, n)]), (damping, tilted[(k, n)])] {
@@ -247,12 +284,49 @@ impl Patterns {
                     normal.information[(place, row)] = -2.0 * value;
                 }
             }
-            for m in 0..errors.len() {
-                normal.information[(place, self.first_error + m)] = 2.0 * own[(n, m)];
+        }
+        for (n, own) in self.blocks.iter().enumerate() {
+            let place = self.first_error + own.errors.start;
+            for other in &self.blocks[n..] {
+                let below = sums.flat.view_range(other.dyads.clone(), own.dyads.clone());
+                let product = other.weights.tr_mul(&(below * &own.weights)) * 2.0;
+                let of_other = self.first_error + other.errors.start;
+                let mut all = normal
+                    .information
+                    .view_mut((of_other, place), product.shape());
+                all.copy_from(&product);
+                let product = product.transpose();
+                let mut all = normal
+                    .information
+                    .view_mut((place, of_other), product.shape());
+                all.copy_from(&product);
             }
         }
         normal.descent = self.descent(count, &sums.slopes);
         normal
+    }
+
+    /// Eᵀ M E′ of the joints and the errors of the set-up, of the joints' rows of M.
+    fn beside_joints(&self, sums: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut by_joints = DMatrix::zeros(self.of_joints.len(), sums.ncols());
+        for (k, own) in self.of_joints.iter().enumerate() {
+            for &(place, factor) in &own.0 {
+                for (sum, entry) in by_joints.row_mut(k).iter_mut().zip(sums.row(place).iter()) {
+                    *sum += factor * entry;
+                }
+            }
+        }
+        let mut all = DMatrix::zeros(self.of_joints.len(), self.of_set_up.len());
+        for own in &self.blocks {
+            let mut errors = all.columns_range_mut(own.errors.clone());
+            errors.gemm(
+                1.0,
+                &by_joints.columns_range(own.dyads.clone()),
+                &own.weights,
+                0.0,
+            );
+        }
+        all
     }
 
     /// 2 Re Jᴴ Σ⁻¹ e of all unknowns.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::dyads::{Grid, Group, add_descent, add_information, squares};
+use crate::dyads::{Grid, Group, add_below, add_descent, mirror, squares};
 
 /// Functions that are compared, with the dyads of what changes them.
 pub(super) struct Compared<'g> {
@@ -53,9 +53,10 @@ impl Gathered {
         self.squares = 0.0;
         for own in all {
             let placed = own.placed();
-            add_information(own.grid, &placed, &mut self.products);
+            add_below(own.grid, &placed, &mut self.products);
             add_descent(own.grid, &placed, &own.errors, &mut self.slopes);
             self.squares += squares(own.grid, &own.errors);
         }
+        mirror(&mut self.products);
     }
 }

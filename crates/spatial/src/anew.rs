@@ -1,32 +1,45 @@
-//! Hits of the assembly that are not where those of the substructures' tests were, though the study does not say so.
+//! Hits and sensors of the assembly that are not where those of the substructures' tests were, though the study does not say so.
 //!
-//! Nobody hits a place twice. Two tenths of a millimetre are many times the noise of a good test, and one error for each hit of both
-//! tests cannot say them: what is left of the functions moves the interface as a rigid body ([`lack`]). So errors of the
-//! assembly's own hits join, and stay where they explain that.
+//! Nobody hits a place twice, nor mounts a sensor twice at one. Two tenths of a millimetre are many times the noise of a good test,
+//! and one error for each of both tests cannot say them: what is left of the functions moves the interface as a rigid body
+//! ([`lack`]). So errors of the assembly's own hits join, or of its sensors, or both, and stay where they explain that.
 
 use std::borrow::Cow;
 
-use bolted_joint_virtual_point::Change;
-use nalgebra::DVector;
+use bolted_joint_virtual_point::{Change, Role};
 
-use crate::budget::HIT_ANEW;
+use crate::budget::TYPICAL_ANEW;
 use crate::error::SpatialError;
 use crate::estimate::Found;
 use crate::lack;
 use crate::normal::Deviations;
 use crate::problem::{Level, Problem, Unknowns};
 use crate::search::Extent;
-use crate::side::Test;
+use crate::side::{Anew, Test};
 use crate::study::SpatialStudy;
 
 /// Squares over numbers that noise of a stated level explains.
 const EXPLAINED: f64 = 1.2;
 
+/// What may be elsewhere.
+const HITS: Anew = Anew {
+    sensors: None,
+    hits: Some(TYPICAL_ANEW),
+};
+const SENSORS: Anew = Anew {
+    sensors: Some(TYPICAL_ANEW),
+    hits: None,
+};
+const BOTH: Anew = Anew {
+    sensors: Some(TYPICAL_ANEW),
+    hits: Some(TYPICAL_ANEW),
+};
+
 impl SpatialStudy {
-    /// What fits best; with hits of the assembly that are elsewhere, where that explains what nothing else does.
+    /// What fits best; with hits or sensors of the assembly that are elsewhere, where that explains what nothing else does.
     ///
     /// Not all starts are followed where a place is known not to fit: it has to be mended first.
-    pub(crate) fn found_with_hits(
+    pub(crate) fn found_with_anew(
         &self,
         rms: &Deviations,
         is_known_not_to_fit: bool,
@@ -38,21 +51,17 @@ impl SpatialStudy {
         if is_known_not_to_fit {
             return own(self.searched(rms, Extent::Likely)?);
         }
-        if self.problem.tolerances.is_none() || self.problem.has_hits_anew() {
+        if self.problem.tolerances.is_none() || self.problem.has_anew() {
             return own(self.searched(rms, Extent::Unless(&mut || false))?);
         }
-        let anew = || {
-            let mut own = self.clone();
-            own.problem = own.problem.with_hits(Some(HIT_ANEW));
-            own
-        };
         // what fails with them says nothing of what is found without
         let explained = |anew: Self, found: Result<Option<Found>, SpatialError>| {
             let found = found.ok().flatten()?;
             let is_explained = matches!(anew.is_explained(&found), Ok(true));
             is_explained.then_some((anew, found))
         };
-        let first_of = |anew: Self| {
+        let first_of = |kind: Anew| {
+            let anew = self.with_anew(kind);
             let found = anew.searched(rms, Extent::First);
             explained(anew, found)
         };
@@ -61,7 +70,7 @@ impl SpatialStudy {
         let found = self.searched(
             rms,
             Extent::Unless(&mut || {
-                let with = first_of(anew());
+                let with = [HITS, BOTH].into_iter().find_map(first_of);
                 let is_found = with.is_some();
                 asked = Some(with);
                 is_found
@@ -71,17 +80,32 @@ impl SpatialStudy {
             (Some(with), _) => with,
             (None, Some(found)) if self.is_explained(found)? => None,
             (None, Some(found)) if found.best.has_converged && !self.has_noise() => {
-                let anew = anew();
-                let begun = found.for_hits_anew(&self.problem, &anew.problem);
-                let with = anew.found_from(rms, begun).map(Some);
-                explained(anew, with)
+                let [over_channels, over_impacts] =
+                    lack::of_each(&found.shown, &found.joint.unknowns)?;
+                let likely = if over_channels < over_impacts {
+                    SENSORS
+                } else {
+                    HITS
+                };
+                [likely, BOTH].into_iter().find_map(|kind| {
+                    let anew = self.with_anew(kind);
+                    let begun = found.for_anew(&self.problem, &anew.problem);
+                    let with = anew.found_from(rms, begun).map(Some);
+                    explained(anew, with)
+                })
             }
-            (None, _) => first_of(anew()),
+            (None, _) => [HITS, SENSORS, BOTH].into_iter().find_map(first_of),
         };
         match with {
             Some((anew, with)) => Ok((Cow::Owned(anew), with)),
             None => own(found),
         }
+    }
+
+    fn with_anew(&self, kind: Anew) -> Self {
+        let mut own = self.clone();
+        own.problem = own.problem.with_anew(kind);
+        own
     }
 
     /// Whether noise explains what is left: by its level where that is stated, else by what moves the interface.
@@ -98,12 +122,12 @@ impl SpatialStudy {
 }
 
 impl Problem {
-    pub(crate) fn has_hits_anew(&self) -> bool {
-        self.sides.iter().any(|side| side.hits_anew.is_some())
+    pub(crate) fn has_anew(&self) -> bool {
+        self.sides.iter().any(|side| side.anew != Anew::default())
     }
 
-    /// Unknowns of a problem without hits anew, for this one, which has them.
-    pub(crate) fn unknowns_with_hits(&self, before: &Problem, unknowns: &Unknowns) -> Unknowns {
+    /// Unknowns of a problem with nothing anew, for this one, which has some.
+    pub(crate) fn unknowns_with_anew(&self, before: &Problem, unknowns: &Unknowns) -> Unknowns {
         let mut errors = before.errors(unknowns);
         for (errors, side) in errors.iter_mut().zip(&self.sides) {
             errors.resize(side.parameters().len(), 0.0);
@@ -112,28 +136,37 @@ impl Problem {
         Unknowns(joint).beside(&errors)
     }
 
-    /// What is said of hits that the study has not as such.
-    pub(crate) fn told_anew(&self, unknowns: &Unknowns) -> String {
-        let parameters = self.sides.iter().flat_map(|side| side.parameters());
-        let errors = unknowns.0.iter().skip(self.joint_count());
-        let (mut along, mut about) = (Vec::new(), Vec::new());
-        for (one, error) in parameters.zip(errors) {
-            match (one.test, one.parameter.change) {
-                (Test::Assembly, Change::Pose(dof)) if dof.is_rotation() => about.push(*error),
-                (Test::Assembly, _) => along.push(*error),
-                (Test::All, _) => {}
+    /// What is said of sensors and hits that the study has not as such.
+    pub(crate) fn told_anew(&self, unknowns: &Unknowns) -> Vec<String> {
+        let kinds = [
+            (Role::Channel, "sensors", 1.0),
+            // a hit's own direction says nothing of where along it the hit is, nor of its turns about it
+            (Role::Impact, "hits", 2.0 / 3.0),
+        ];
+        let told = kinds.map(|(role, name, seen)| {
+            let parameters = self.sides.iter().flat_map(|side| side.parameters());
+            let errors = unknowns.0.iter().skip(self.joint_count());
+            let (mut along, mut about) = (Vec::new(), Vec::new());
+            for (one, error) in parameters.zip(errors) {
+                match (one.test == Test::Assembly(role), one.parameter.change) {
+                    (true, Change::Pose(dof)) if dof.is_rotation() => about.push(*error),
+                    (true, _) => along.push(*error),
+                    (false, _) => {}
+                }
             }
-        }
-        // a hit's own direction says nothing of where along it the hit is, nor of its turns about it
-        let rms = |all: Vec<f64>| {
-            let seen = 2.0 * all.len() as f64 / 3.0;
-            (DVector::from_vec(all).norm_squared() / seen.max(1.0)).sqrt()
-        };
-        format!(
-            "hits of the assembly are not where those of a and b were (by {:.2} mm and {:.1}° in each direction, r.m.s.), and the budget has no hits: \
-             they were estimated with errors of their own; state hits in [budget]",
-            1e3 * rms(along),
-            rms(about).to_degrees()
-        )
+            let rms = |all: &[f64]| {
+                let squares: f64 = all.iter().map(|error| error * error).sum();
+                (squares / (seen * all.len() as f64).max(1.0)).sqrt()
+            };
+            (!along.is_empty()).then(|| {
+                format!(
+                    "{name} of the assembly are not where those of a and b were (by {:.2} mm and {:.1}° in each direction, r.m.s.), \
+                     and the budget has no {name}: they were estimated with errors of their own; state {name} in [budget]",
+                    1e3 * rms(&along),
+                    rms(&about).to_degrees()
+                )
+            })
+        });
+        told.into_iter().flatten().collect()
     }
 }

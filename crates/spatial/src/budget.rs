@@ -4,9 +4,9 @@ use bolted_joint_study::{Deviation, StudyError};
 use bolted_joint_virtual_point::{Tolerance, Tolerances};
 
 use crate::chain::part::{Part, PartInterface};
-use crate::side::Side;
+use crate::side::{Anew, Side};
 use crate::study::Reader;
-use crate::tables::{BudgetTable, DeviationsTable, HitsTable};
+use crate::tables::{AnewTable, BudgetTable, DeviationsTable};
 
 /// A standard deviation of the set-up that is larger is in another unit.
 const MOST_DEVIATION: f64 = 1.0;
@@ -17,8 +17,8 @@ const MOST_OF_RIG: f64 = 0.2;
 /// What is exact is known so well, in parts of what a careful laboratory knows: a prior of no width has no weight.
 pub(crate) const EXACT: f64 = 1e-6;
 
-/// How far a hammer hits from where it has hit in another test, and in which direction, with care.
-pub(crate) const HIT_ANEW: Tolerance = Tolerance {
+/// How far a hammer hits from where it has hit in another test, and in which direction, and where a sensor is mounted again, with care.
+pub(crate) const TYPICAL_ANEW: Tolerance = Tolerance {
     position_m: 1e-3,
     rotation_rad: 0.01,
     gain: 0.0,
@@ -28,8 +28,8 @@ pub(crate) const HIT_ANEW: Tolerance = Tolerance {
 pub(crate) struct Budget {
     /// Of all tests; `None` where nothing is wrong with it.
     pub(crate) tolerances: Option<Tolerances>,
-    /// How far hits of the assembly are from those of the substructures' tests; `None` where they repeat.
-    pub(crate) hits_anew: Option<Tolerance>,
+    /// How far sensors and hits of the assembly are from those of the substructures' tests.
+    pub(crate) anew: Anew,
 }
 
 impl Reader<'_> {
@@ -43,18 +43,23 @@ impl Reader<'_> {
             position,
             rotation,
             gain,
+            sensors,
             hits,
         } = match table {
             BudgetTable::None => {
                 return Ok(Budget {
                     tolerances: None,
-                    hits_anew: None,
+                    anew: Anew::default(),
                 });
             }
             BudgetTable::Deviations(own) => *own,
         };
-        let of_hits = hits.and_then(|own| own.position);
-        for (key, given) in [("position", position), ("hits.position", of_hits)] {
+        let position_of = |own: Option<AnewTable>| own.and_then(|own| own.position);
+        for (key, given) in [
+            ("position", position),
+            ("sensors.position", position_of(sensors)),
+            ("hits.position", position_of(hits)),
+        ] {
             if let Some(Deviation(value)) = given {
                 self.ensure_smaller_than_rig(key, value, parts)?;
             }
@@ -65,23 +70,35 @@ impl Reader<'_> {
             rotation_rad: self.deviation("rotation", rotation, typical.rotation_rad)?,
             gain: self.deviation("gain", gain, typical.gain)?,
         };
-        let HitsTable { position, rotation } = hits.unwrap_or_default();
-        let of_hits = Tolerance {
-            position_m: self.deviation("hits.position", position, HIT_ANEW.position_m)?,
-            rotation_rad: self.deviation("hits.rotation", rotation, HIT_ANEW.rotation_rad)?,
-            gain: 0.0,
+        let anew = Anew {
+            sensors: self.anew("sensors", sensors)?,
+            hits: self.anew("hits", hits)?,
         };
-        let hits_anew = hits.map(|_| of_hits).filter(|own| !is_exact(own));
         // whether anything about a set-up can be wrong
         let has_places = sides.iter().any(|side| !side.parameters().is_empty());
-        let is_known = is_exact(&own) && hits_anew.is_none();
+        let is_known = is_exact(&own) && anew == Anew::default();
         Ok(Budget {
             tolerances: (has_places && !is_known).then_some(Tolerances {
                 sensors: own,
                 impacts: own,
             }),
-            hits_anew,
+            anew,
         })
+    }
+
+    /// How far sensors or hits are from where they were; `None` where nothing says that they are elsewhere.
+    fn anew(&self, name: &str, table: Option<AnewTable>) -> Result<Option<Tolerance>, StudyError> {
+        let Some(AnewTable { position, rotation }) = table else {
+            return Ok(None);
+        };
+        let of =
+            |key: &str, given, typical| self.deviation(&format!("{name}.{key}"), given, typical);
+        let own = Tolerance {
+            position_m: of("position", position, TYPICAL_ANEW.position_m)?,
+            rotation_rad: of("rotation", rotation, TYPICAL_ANEW.rotation_rad)?,
+            gain: 0.0,
+        };
+        Ok((!is_exact(&own)).then_some(own))
     }
 
     /// A standard deviation, or what it is where none is given; of what is exact, one that is as good as none.

@@ -88,11 +88,11 @@ impl Found {
         })
     }
 
-    /// With errors of hits that it does not have yet.
-    pub(crate) fn for_hits_anew(&self, before: &Problem, anew: &Problem) -> Begun {
+    /// With errors of sensors and hits that it does not have yet.
+    pub(crate) fn for_anew(&self, before: &Problem, anew: &Problem) -> Begun {
         Begun(Searched {
             fit: Fit {
-                unknowns: anew.unknowns_with_hits(before, &self.best.unknowns),
+                unknowns: anew.unknowns_with_anew(before, &self.best.unknowns),
                 ..self.best
             },
             starts: self.starts,
@@ -117,9 +117,11 @@ impl SpatialStudy {
             });
         }
         let rms = sizes(problem);
-        let (mut own, mut found) = self.found_with_hits(&rms, !misfits.is_empty())?;
-        let of_hits =
-            matches!(own, Cow::Owned(_)).then(|| own.problem.told_anew(&found.best.unknowns));
+        let (mut own, mut found) = self.found_with_anew(&rms, !misfits.is_empty())?;
+        let of_anew = match own {
+            Cow::Owned(_) => own.problem.told_anew(&found.best.unknowns),
+            Cow::Borrowed(_) => Vec::new(),
+        };
         let mut result = own.result(&found)?;
         for _ in 0..ROUNDS {
             // what a budget that does not hold draws back draws the joint with it
@@ -131,7 +133,7 @@ impl SpatialStudy {
             found = own.found_from(&rms, found.begun())?;
             result = own.result(&found)?;
         }
-        result.warnings.extend(of_hits);
+        result.warnings.extend(of_anew);
         Ok(result)
     }
 

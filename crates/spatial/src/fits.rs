@@ -83,7 +83,7 @@ impl Problem {
             .map(|(n, (one, expected))| SetUpError {
                 key: match one.test {
                     Test::All => one.placed.key(one.parameter.place),
-                    Test::Assembly => {
+                    Test::Assembly(_) => {
                         format!("{} in the assembly", one.placed.key(one.parameter.place))
                     }
                 },

@@ -43,11 +43,21 @@ pub(crate) fn warning(
 
 /// How much more the interface moves as a rigid body in what is left than noise would make it.
 pub(crate) fn of(problem: &Problem, unknowns: &Unknowns) -> Result<f64, SpatialError> {
-    ratio(&problem.thinned(LINES), unknowns, &sizes(problem))
+    let [over_channels, over_impacts] = of_each(problem, unknowns)?;
+    Ok(over_channels.max(over_impacts))
 }
 
-/// The larger one of channels and of impacts; 0 where no interface has more of them than motions.
-fn ratio(problem: &Problem, unknowns: &Unknowns, rms: &Deviations) -> Result<f64, SpatialError> {
+/// Likewise over channels and over impacts: what hits do wrong is rigid over channels, and what sensors do over impacts.
+pub(crate) fn of_each(problem: &Problem, unknowns: &Unknowns) -> Result<[f64; 2], SpatialError> {
+    ratios(&problem.thinned(LINES), unknowns, &sizes(problem))
+}
+
+/// 0 where no interface has more channels, or impacts, than motions.
+fn ratios(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    rms: &Deviations,
+) -> Result<[f64; 2], SpatialError> {
     let assembled = Assembled::new(problem, unknowns)?;
     let [a, b] = &problem.sides;
     let size = [
@@ -89,10 +99,9 @@ fn ratio(problem: &Problem, unknowns: &Unknowns, rms: &Deviations) -> Result<f64
         }
     }
     if squares < ROUNDING * ROUNDING * (problem.numbers() / 2) as f64 {
-        return Ok(0.0);
+        return Ok([0.0; 2]);
     }
-    let ratios = sums.map(|[rigid, other]| if other > 0.0 { rigid / other } else { 0.0 });
-    Ok(ratios[0].max(ratios[1]))
+    Ok(sums.map(|[rigid, other]| if other > 0.0 { rigid / other } else { 0.0 }))
 }
 
 /// Channels of an interface for one impact, or the other way round.

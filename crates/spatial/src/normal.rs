@@ -191,7 +191,7 @@ pub(crate) fn residuals(problem: &Problem, line: usize, found: &Line) -> DMatrix
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::{chain, problem, problem_hit_anew};
+    use crate::samples::{chain, problem, problem_anew};
 
     /// The sums of dyads against the table of derivatives.
     fn compare(mut problem: Problem) {
@@ -253,6 +253,6 @@ mod tests {
     fn dyads_sum_up_to_the_normal_equations_of_the_table() {
         compare(problem());
         compare(chain());
-        compare(problem_hit_anew());
+        compare(problem_anew());
     }
 }

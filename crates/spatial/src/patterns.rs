@@ -216,8 +216,9 @@ impl Patterns {
         let mut first = 36 * problem.links.sought().len();
         let counts = problem.sides.iter().flat_map(|side| {
             let [rows, columns] = [side.responses.len(), side.references.len()];
-            let of_hits = side.hits_anew.map(|_| columns);
-            let all = [rows, columns].into_iter().chain(of_hits);
+            let of_sensors = side.anew.sensors.map(|_| rows);
+            let of_hits = side.anew.hits.map(|_| columns);
+            let all = [rows, columns].into_iter().chain(of_sensors).chain(of_hits);
             all.map(|own| own * problem.motions())
         });
         for (changes, count) in assembled.changes()?.iter().zip(counts) {

@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use bolted_joint_space::{Dof, Selection, SpaceError};
-use bolted_joint_virtual_point::{Parameter, Tolerance, Tolerances};
+use bolted_joint_virtual_point::{Parameter, Tolerances};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::budget::EXACT;
 use crate::error::SpatialError;
 use crate::links::{Links, Sought};
-use crate::side::{Side, Transformations};
+use crate::side::{Anew, Side, Transformations};
 
 /// How large the noise of the assembly's functions is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +77,7 @@ impl Problem {
             references: side.references.clone(),
             lines: kept.iter().map(|&line| side.lines[line].clone()).collect(),
             interfaces: side.interfaces.clone(),
-            hits_anew: side.hits_anew,
+            anew: side.anew,
         };
         let observed = |one: &Observed| Observed {
             at: one.at,
@@ -177,10 +177,10 @@ impl Problem {
         self.observed.len() < self.links.own_motions().len().pow(2)
     }
 
-    /// With hits of the assembly that may be so far from those of the substructures' tests.
-    pub(crate) fn with_hits(mut self, anew: Option<Tolerance>) -> Self {
+    /// With sensors and hits of the assembly that may be so far from those of the substructures' tests.
+    pub(crate) fn with_anew(mut self, anew: Anew) -> Self {
         for side in &mut self.sides {
-            side.hits_anew = anew;
+            side.anew = anew;
         }
         self
     }

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use crate::chain::joined;
 use crate::links::{Link, Links, Numbers};
 use crate::problem::{Observed, Problem, Unknowns};
-use crate::side::{Interface, Placed, Side};
+use crate::side::{Anew, Interface, Placed, Side};
 
 /// Numbers that look random, from −1 to 1.
 pub(crate) fn number(seed: &mut u32) -> f64 {
@@ -35,6 +35,7 @@ fn part(interfaces: usize, seed: &mut u32) -> Side {
             name: "a".to_owned(),
             first: [9 * n, 8 * n],
             interface: Interface::Points(SetUp::new(&sensors, &impacts).unwrap()),
+            seen: None,
             struck: None,
         }
     };
@@ -52,7 +53,7 @@ fn part(interfaces: usize, seed: &mut u32) -> Side {
         references: vec![dof; columns],
         lines,
         interfaces,
-        hits_anew: None,
+        anew: Anew::default(),
     }
 }
 
@@ -88,9 +89,12 @@ pub(crate) fn problem() -> Problem {
     sample(sides, &[0.03], [&[0, 4, 9, 10, 14, 19], &[0, 7, 8, 15]])
 }
 
-/// The same, where hits of the assembly may be beside those of its parts.
-pub(crate) fn problem_hit_anew() -> Problem {
-    problem().with_hits(Some(Tolerance::TYPICAL))
+/// The same, where sensors and hits of the assembly may be beside those of its parts.
+pub(crate) fn problem_anew() -> Problem {
+    problem().with_anew(Anew {
+        sensors: Some(Tolerance::TYPICAL),
+        hits: Some(Tolerance::TYPICAL),
+    })
 }
 
 /// Two joints: three parts, of which the middle one, b, has both.

@@ -25,8 +25,25 @@ pub(crate) struct Side {
     pub(crate) lines: Vec<DMatrix<Complex64>>,
     /// One for each joint, in their order.
     pub(crate) interfaces: Vec<Placed>,
-    /// How far each hit of the assembly may be from that of the structure's own test; `None` where hits repeat.
-    pub(crate) hits_anew: Option<Tolerance>,
+    pub(crate) anew: Anew,
+}
+
+/// How far what is at an interface in the assembly's test may be from where it was in that of the structure; `None` where it is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Anew {
+    /// Sensors that were taken off and mounted again.
+    pub(crate) sensors: Option<Tolerance>,
+    /// Hits: no hammer hits a place twice.
+    pub(crate) hits: Option<Tolerance>,
+}
+
+impl Anew {
+    fn of(&self, role: Role) -> Option<Tolerance> {
+        match role {
+            Role::Channel => self.sensors,
+            Role::Impact => self.hits,
+        }
+    }
 }
 
 /// An interface, and where its channels and impacts are among those of the side.
@@ -37,8 +54,10 @@ pub(crate) struct Placed {
     /// Its first response, and its first reference.
     pub(crate) first: [usize; 2],
     pub(crate) interface: Interface,
-    /// What R_f of the assembly's hits has beyond that of the structure's own test, impacts × 6, as far as it is known; `None` where
-    /// it is the same.
+    /// What R_u of the assembly's sensors has beyond that of the structure's own test, channels × 6, as far as it is known; `None`
+    /// where it is the same.
+    pub(crate) seen: Option<DMatrix<f64>>,
+    /// Likewise R_f of its hits, impacts × 6.
     pub(crate) struck: Option<DMatrix<f64>>,
 }
 
@@ -47,8 +66,8 @@ pub(crate) struct Placed {
 pub(crate) enum Test {
     /// In all tests alike.
     All,
-    /// In that of the assembly, against all.
-    Assembly,
+    /// In that of the assembly, against all: with its sensors, or with its hits.
+    Assembly(Role),
 }
 
 /// What may be wrong with a set-up.
@@ -87,25 +106,42 @@ impl Placed {
         }
     }
 
-    /// What a hit anew changes: places and directions of the hammer, with dR_f by each, impacts × 6.
-    pub(crate) fn hits(&self) -> Vec<(Parameter, DMatrix<f64>)> {
+    /// What being mounted, or hit, anew changes: places and directions, with dR by each, channels or impacts × 6.
+    pub(crate) fn poses(&self, role: Role) -> Vec<(Parameter, DMatrix<f64>)> {
         let Interface::Points(set_up) = &self.interface else {
             return Vec::new();
         };
-        let impacts = set_up.impacts();
-        let all = impacts.parameters().into_iter().zip(impacts.derivatives());
+        let places = set_up.places(role);
+        let all = places.parameters().into_iter().zip(places.derivatives());
         all.filter(|(parameter, _)| matches!(parameter.change, Change::Pose(_)))
             .collect()
     }
 
-    /// What R_f of the assembly's hits has beyond that of the structure's own test, with these errors of theirs.
-    fn struck(&self, errors: &[f64]) -> Option<DMatrix<f64>> {
-        let changes = self.hits().into_iter().zip(errors);
-        changes.fold(self.struck.clone(), |sum, ((_, change), error)| {
+    /// What R of the assembly has beyond that of the structure's own test, with these errors.
+    fn beyond(&self, role: Role, errors: &[f64]) -> Option<DMatrix<f64>> {
+        let known = match role {
+            Role::Channel => &self.seen,
+            Role::Impact => &self.struck,
+        };
+        if errors.is_empty() {
+            return known.clone();
+        }
+        let changes = self.poses(role).into_iter().zip(errors);
+        changes.fold(known.clone(), |sum, ((_, change), error)| {
             let own = change * *error;
             Some(sum.map_or_else(|| own.clone(), |sum| sum + &own))
         })
     }
+}
+
+/// The errors of an interface's set-up.
+#[derive(Clone, Debug, Default)]
+struct Errors {
+    /// Of its channels, then of its impacts, in all tests alike.
+    of_all: Vec<f64>,
+    /// Of the assembly's sensors against these, and of its hits.
+    of_sensors: Vec<f64>,
+    of_hits: Vec<f64>,
 }
 
 /// T_u (motions × responses) and T_f (references × motions).
@@ -113,7 +149,9 @@ impl Placed {
 pub(crate) struct Transformations {
     pub(crate) motions: DMatrix<Complex64>,
     pub(crate) loads: DMatrix<Complex64>,
-    /// What loads of the assembly's hits have beyond those of the structure's own test, motions × references, where they have any.
+    /// What channels of the assembly see of the motions beyond those of the structure's own test, responses × motions, where they do;
+    pub(crate) seen: Option<DMatrix<Complex64>>,
+    /// and what loads of its hits have beyond, motions × references.
     pub(crate) struck: Option<DMatrix<Complex64>>,
 }
 
@@ -124,7 +162,9 @@ pub(crate) struct Changes {
     pub(crate) motions: Vec<DMatrix<Complex64>>,
     /// T_f with errors of impacts.
     pub(crate) loads: Vec<DMatrix<Complex64>>,
-    /// What is struck beyond with errors of the assembly's hits, where these are hit anew.
+    /// What is seen beyond with errors of the assembly's sensors, where these are mounted anew.
+    pub(crate) seen: Option<Vec<DMatrix<Complex64>>>,
+    /// Likewise what is struck with those of its hits.
     pub(crate) struck: Option<Vec<DMatrix<Complex64>>>,
 }
 
@@ -224,7 +264,8 @@ impl Side {
         })
     }
 
-    /// Errors that the set-up may have: those of channels, those of impacts, and those of the assembly's impacts against these.
+    /// Errors that the set-up may have: those of channels, those of impacts, and those of the assembly's channels and impacts
+    /// against these.
     pub(crate) fn parameters(&self) -> Vec<MayErr<'_>> {
         let of = |role| {
             let placed = self.interfaces.iter();
@@ -237,36 +278,44 @@ impl Side {
                 })
             })
         };
-        let of_hits = self.interfaces.iter().filter(|_| self.hits_anew.is_some());
-        let of_hits = of_hits.flat_map(|placed| {
-            let own = placed.hits().into_iter();
-            own.map(move |(parameter, _)| MayErr {
-                placed,
-                parameter,
-                test: Test::Assembly,
+        let again = |role| {
+            let placed = self.interfaces.iter();
+            let placed = placed.filter(move |_| self.anew.of(role).is_some());
+            placed.flat_map(move |placed| {
+                let own = placed.poses(role).into_iter();
+                own.map(move |(parameter, _)| MayErr {
+                    placed,
+                    parameter,
+                    test: Test::Assembly(role),
+                })
             })
-        });
+        };
         of(Role::Channel)
             .chain(of(Role::Impact))
-            .chain(of_hits)
+            .chain(again(Role::Channel))
+            .chain(again(Role::Impact))
             .collect()
     }
 
     /// Standard deviations of these errors.
     pub(crate) fn deviations(&self, tolerances: &Tolerances) -> Vec<f64> {
         let parameters = self.parameters();
-        let of = parameters
-            .iter()
-            .map(|one| match (one.test, &self.hits_anew) {
-                (Test::Assembly, Some(own)) => own.of(one.parameter.change),
-                _ => tolerances.of(one.parameter.place, one.parameter.change),
-            });
+        let of = parameters.iter().map(|one| {
+            let anew = match one.test {
+                Test::Assembly(role) => self.anew.of(role),
+                Test::All => None,
+            };
+            anew.map_or_else(
+                || tolerances.of(one.parameter.place, one.parameter.change),
+                |own| own.of(one.parameter.change),
+            )
+        });
         of.collect()
     }
 
-    /// The errors of each interface: of its channels and of its impacts; and of the assembly's impacts.
-    fn errors_of_each(&self, errors: &[f64]) -> Vec<[Vec<f64>; 2]> {
-        let mut own = vec![[const { Vec::new() }; 2]; self.interfaces.len()];
+    /// The errors of each interface.
+    fn errors_of_each(&self, errors: &[f64]) -> Vec<Errors> {
+        let mut all = vec![Errors::default(); self.interfaces.len()];
         let mut rest = errors;
         let mut next = |count: usize| {
             let (first, others) = rest.split_at(count);
@@ -274,25 +323,33 @@ impl Side {
             first
         };
         for role in [Role::Channel, Role::Impact] {
-            for ([own, _], placed) in own.iter_mut().zip(&self.interfaces) {
-                own.extend_from_slice(next(placed.parameters(role).len()));
+            for (own, placed) in all.iter_mut().zip(&self.interfaces) {
+                (own.of_all).extend_from_slice(next(placed.parameters(role).len()));
             }
         }
-        if self.hits_anew.is_some() {
-            for ([_, own], placed) in own.iter_mut().zip(&self.interfaces) {
-                own.extend_from_slice(next(placed.hits().len()));
+        for role in [Role::Channel, Role::Impact] {
+            if self.anew.of(role).is_none() {
+                continue;
+            }
+            for (own, placed) in all.iter_mut().zip(&self.interfaces) {
+                let errors = next(placed.poses(role).len());
+                match role {
+                    Role::Channel => own.of_sensors.extend_from_slice(errors),
+                    Role::Impact => own.of_hits.extend_from_slice(errors),
+                }
             }
         }
-        own
+        all
     }
 
     /// With errors of the set-up, and exact so.
     pub(crate) fn displaced(&self, errors: &[f64]) -> Result<Self, OfInterface> {
         let mut own = self.clone();
         let each = self.errors_of_each(errors);
-        for (placed, [errors, of_hits]) in own.interfaces.iter_mut().zip(each) {
-            placed.struck = placed.struck(&of_hits);
-            let displaced = placed.interface.displaced(&errors);
+        for (placed, errors) in own.interfaces.iter_mut().zip(each) {
+            placed.seen = placed.beyond(Role::Channel, &errors.of_sensors);
+            placed.struck = placed.beyond(Role::Impact, &errors.of_hits);
+            let displaced = placed.interface.displaced(&errors.of_all);
             placed.interface = displaced.map_err(|source| placed.refused(source))?;
         }
         Ok(own)
@@ -305,10 +362,11 @@ impl Side {
         let mut all = Transformations {
             motions: DMatrix::zeros(motions, rows),
             loads: DMatrix::zeros(columns, motions),
+            seen: None,
             struck: None,
         };
         let errors = self.errors_of_each(errors);
-        for (n, (placed, [errors, of_hits])) in self.interfaces.iter().zip(&errors).enumerate() {
+        for (n, (placed, errors)) in self.interfaces.iter().zip(&errors).enumerate() {
             let set_up = match &placed.interface {
                 Interface::Points(set_up) => set_up,
                 Interface::Node(own) => {
@@ -318,10 +376,14 @@ impl Side {
                     continue;
                 }
             };
-            let point = placed.seen_by(set_up, errors)?;
+            let point = placed.seen_by(set_up, &errors.of_all)?;
             all.motions += self.by_rows(n, point.motions_of_channels());
             all.loads += self.by_columns(n, &point.forces_of_loads().transpose());
-            if let Some(own) = placed.struck(of_hits) {
+            if let Some(own) = placed.beyond(Role::Channel, &errors.of_sensors) {
+                let none = || DMatrix::zeros(rows, motions);
+                *all.seen.get_or_insert_with(none) += self.by_sensors(n, &own);
+            }
+            if let Some(own) = placed.beyond(Role::Impact, &errors.of_hits) {
                 let none = || DMatrix::zeros(motions, columns);
                 *all.struck.get_or_insert_with(none) += self.by_hits(n, &own);
             }
@@ -332,11 +394,14 @@ impl Side {
     /// How the transformations change there.
     pub(crate) fn changes(&self, errors: &[f64]) -> Result<Changes, OfInterface> {
         let mut all = Changes {
-            struck: self.hits_anew.map(|_| Vec::new()),
+            seen: self.anew.sensors.map(|_| Vec::new()),
+            struck: self.anew.hits.map(|_| Vec::new()),
             ..Changes::default()
         };
-        let errors = self.errors_of_each(errors);
-        for (n, (placed, [errors, _])) in self.interfaces.iter().zip(&errors).enumerate() {
+        let each = self.errors_of_each(errors);
+        for (n, (placed, Errors { of_all: errors, .. })) in
+            self.interfaces.iter().zip(&each).enumerate()
+        {
             let Interface::Points(set_up) = &placed.interface else {
                 continue;
             };
@@ -354,8 +419,13 @@ impl Side {
             by_vectors.map_err(|source| placed.refused(source))?;
             (all.motions).extend(by_channels.iter().map(|own| self.by_rows(n, own)));
             (all.loads).extend(by_impacts.iter().map(|own| self.by_columns(n, own)));
+            if let Some(seen) = &mut all.seen {
+                let poses = placed.poses(Role::Channel);
+                seen.extend(poses.iter().map(|(_, own)| self.by_sensors(n, own)));
+            }
             if let Some(struck) = &mut all.struck {
-                struck.extend(placed.hits().iter().map(|(_, own)| self.by_hits(n, own)));
+                let poses = placed.poses(Role::Impact);
+                struck.extend(poses.iter().map(|(_, own)| self.by_hits(n, own)));
             }
         }
         Ok(all)
@@ -372,6 +442,12 @@ impl Side {
         let first = [self.interfaces[interface].first[1], MOTIONS * interface];
         let size = [self.references.len(), self.motions()];
         placed_at(&own.transpose(), first, size)
+    }
+
+    /// Responses × motions likewise.
+    fn by_sensors(&self, interface: usize, own: &DMatrix<f64>) -> DMatrix<Complex64> {
+        let first = [self.interfaces[interface].first[0], MOTIONS * interface];
+        placed_at(own, first, [self.responses.len(), self.motions()])
     }
 
     /// The transpose of references × motions likewise.

@@ -1,6 +1,6 @@
 //! How well the unknowns of the joints are known: by noise, and with the errors of the set-up.
 
-use bolted_joint_virtual_point::Place;
+use bolted_joint_virtual_point::{Place, Role};
 use nalgebra::DMatrix;
 
 use crate::fit::covariance;
@@ -77,7 +77,8 @@ fn groups(problem: &Problem) -> Vec<(String, Vec<usize>)> {
     }
     let parameters = problem.sides.iter().flat_map(|side| side.parameters());
     let kinds = parameters.map(|one| match (one.test, one.parameter.place) {
-        (Test::Assembly, _) => format!("hits anew on {}", one.placed.name),
+        (Test::Assembly(Role::Channel), _) => format!("sensors anew on {}", one.placed.name),
+        (Test::Assembly(Role::Impact), _) => format!("hits anew on {}", one.placed.name),
         (_, Place::Sensor(_) | Place::Channel(_)) => format!("sensors of {}", one.placed.name),
         (_, Place::Impact(_)) => format!("impacts of {}", one.placed.name),
     });

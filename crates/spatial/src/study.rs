@@ -110,7 +110,7 @@ impl SpatialStudy {
                 observed,
                 links: Links(vec![link]),
             }
-            .with_hits(budget.hits_anew),
+            .with_anew(budget.anew),
         })
     }
 

@@ -294,7 +294,7 @@ impl<'de> Deserialize<'de> for BudgetTable {
             type Value = BudgetTable;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"none\" or a table with position, rotation, gain and hits")
+                f.write_str("\"none\" or a table with position, rotation, gain, sensors and hits")
             }
 
             fn visit_str<E: de::Error>(self, word: &str) -> Result<BudgetTable, E> {
@@ -321,13 +321,14 @@ pub(crate) struct DeviationsTable {
     /// rad.
     pub(crate) rotation: Option<Deviation>,
     pub(crate) gain: Option<Deviation>,
-    /// How far hits of the assembly are from those of the substructures' tests.
-    pub(crate) hits: Option<HitsTable>,
+    /// How far sensors of the assembly are from where they were in the substructures' tests, and hits likewise.
+    pub(crate) sensors: Option<AnewTable>,
+    pub(crate) hits: Option<AnewTable>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with position and rotation")]
-pub(crate) struct HitsTable {
+pub(crate) struct AnewTable {
     /// m.
     pub(crate) position: Option<Deviation>,
     /// rad.

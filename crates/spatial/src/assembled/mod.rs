@@ -128,6 +128,7 @@ impl<'p> Assembled<'p> {
 
     /// The assembly of substructures with these functions: Y_C = Y − Y Sᵀ D b with b = (I + H D)⁻¹ S Y, a = Y Sᵀ (I + D H)⁻¹. What was
     /// struck anew, dR_f beside the hits of the substructures, is struck as by these with T_f dR_fᵀ of them more: Y_C (I + T_f dR_fᵀ).
+    /// What is seen anew, dR_u beside their sensors, is seen as by these with dR_u T_u of them more: (I + dR_u T_u) Y_C.
     pub(crate) fn line_of(
         &self,
         line: usize,
@@ -141,7 +142,7 @@ impl<'p> Assembled<'p> {
         let dynamic = self.dynamic(line);
         let joints = Joints::of(self.problem, &seen, &dynamic);
         let mut b = joints.solved(&motions)?;
-        let a = joints.solved_transposed(&by_loads)?;
+        let mut a = joints.solved_transposed(&by_loads)?;
         let loads = &dynamic * &b;
         let [rows, columns] = self.problem.skips();
         let observed = self.problem.observed.iter();
@@ -169,6 +170,21 @@ impl<'p> Assembled<'p> {
             let mut own_b = b.columns_mut(first, struck.ncols());
             let more = &own_b * &own.loads * struck;
             own_b += more;
+        }
+        for (side, own) in self.transformations.iter().enumerate() {
+            let Some(seen) = &own.seen else { continue };
+            let first = [0, rows][side];
+            let loads = self.loads_across(side, &dynamic, &b);
+            let motions = self.motions_of(side, functions_of, &loads);
+            for (one, function) in self.problem.observed.iter().zip(&mut functions) {
+                let [o, i] = one.at;
+                if let Some(o) = o.checked_sub(first).filter(|&o| o < seen.nrows()) {
+                    *function += seen.row(o).transpose().dot(&motions.column(i));
+                }
+            }
+            let mut own_a = a.rows_mut(first, seen.nrows());
+            let more = seen * &own.motions * &own_a;
+            own_a += more;
         }
         Ok(Line {
             functions,

@@ -1,7 +1,7 @@
 use super::*;
 use bolted_joint_virtual_point::{Role, VirtualPoint, Weights};
 
-use crate::samples::{chain, problem, problem_hit_anew, unknowns};
+use crate::samples::{chain, problem, problem_anew, unknowns};
 use crate::side::Test;
 
 /// Reference: central differences of the model's functions.
@@ -45,20 +45,20 @@ fn derivatives_are_differences_by_every_unknown() {
 }
 
 #[test]
-fn derivatives_by_hits_anew_are_differences() {
-    compare_with_differences(&problem_hit_anew());
+fn derivatives_by_sensors_and_hits_anew_are_differences() {
+    compare_with_differences(&problem_anew());
 }
 
 /// Reference: the same hits as impacts of their own, of a structure that moves as a rigid body.
 #[test]
 fn a_hit_that_is_elsewhere_in_the_assembly_is_an_impact_there() {
-    let mut problem = problem_hit_anew().smoothed().unwrap();
+    let mut problem = problem_anew().smoothed().unwrap();
     let at = unknowns(&problem);
     let first = problem.joint_count() + problem.sides[0].parameters().len();
     let of_hits = problem.sides[0].parameters();
     let of_hits = of_hits
         .iter()
-        .position(|one| one.test == Test::Assembly)
+        .position(|one| one.test == Test::Assembly(Role::Impact))
         .unwrap();
     let joint = Unknowns(at.0.rows(0, problem.joint_count()).into_owned());
     let mut with = Unknowns(DVector::zeros(problem.count()));

@@ -11,7 +11,7 @@ use bolted_joint_virtual_point::{Impact, Places, Role, Sensor, SetUp, VirtualPoi
 use nalgebra::{DMatrix, Vector3};
 use num_complex::Complex64;
 
-use crate::side::{Interface, Placed, Side};
+use crate::side::{Anew, Interface, Placed, Side};
 use crate::study::DIRECTIONS;
 
 /// A function below this part of the largest one of its kind is none: nothing moves.
@@ -272,6 +272,7 @@ impl Part {
                 name: own.name.clone(),
                 first,
                 interface: set_up.map_or(Interface::Node(own.motions), Interface::Points),
+                seen: None,
                 struck: None,
             });
         }
@@ -282,7 +283,7 @@ impl Part {
             references: columns.iter().map(|row| row.dof).collect(),
             lines: self.lines(study, &rows, &columns, frequency_hz)?,
             interfaces,
-            hits_anew: None,
+            anew: Anew::default(),
         };
         // what the places do not see is told at once
         let none = vec![0.0; side.parameters().len()];
@@ -416,7 +417,7 @@ pub(crate) fn joined(sides: Vec<Side>) -> Side {
         references: Vec::new(),
         lines: Vec::new(),
         interfaces: Vec::new(),
-        hits_anew: None,
+        anew: Anew::default(),
     };
     let mut all = sides.next().unwrap_or(none);
     for mut own in sides {

@@ -12,7 +12,7 @@ use super::study::{ChainStudy, sides};
 use crate::assembled::Assembled;
 use crate::links::{Link, Links};
 use crate::problem::{Problem, Unknowns};
-use crate::side::{Interface, Placed, Side};
+use crate::side::{Anew, Interface, Placed, Side};
 
 impl ChainStudy {
     /// What is before the joint that is sought, what is behind it, and the joint.
@@ -138,9 +138,10 @@ impl ChainStudy {
                 name: own.name.clone(),
                 first: [0, 0],
                 interface,
+                seen: None,
                 struck: None,
             }],
-            hits_anew: None,
+            anew: Anew::default(),
         })
     }
 }

@@ -260,7 +260,7 @@ impl ChainStudy {
                 observed: Vec::new(),
                 links: Links(links),
             }
-            .with_hits(budget.hits_anew),
+            .with_anew(budget.anew),
             parts,
             assembly,
             assumed,

@@ -258,13 +258,16 @@ impl<'p> Beside<'p> {
             let mut own = vec![(places[n], model.of_hidden_alone(n))];
             if self.has_set_up(n) {
                 let [of_channels, of_impacts] = model.of_set_up(n, computed);
-                let again = (!model.rows[n].of_hits.is_empty()).then(|| of_impacts.clone());
+                let rows = &model.rows[n];
+                let of_sensors = (!rows.of_sensors.is_empty()).then(|| of_channels.clone());
+                let of_hits = (!rows.of_hits.is_empty()).then(|| of_impacts.clone());
                 let in_assembly = [of_channels, of_impacts].map(&mut put);
                 let of_own = model.of_set_up_alone(n, hidden);
                 let firsts = in_assembly.each_ref().map(|(place, _)| *place);
                 own.extend(firsts.into_iter().zip(of_own));
                 groups.extend(in_assembly);
-                groups.extend(again.map(&mut put));
+                groups.extend(of_sensors.map(&mut put));
+                groups.extend(of_hits.map(&mut put));
             }
             alone.push(Compared {
                 grid: &self.grids.own[n][line],

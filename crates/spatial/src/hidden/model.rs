@@ -14,7 +14,7 @@ use crate::assembled::{Assembled, Line};
 use crate::dyads::Group;
 use crate::error::SpatialError;
 use crate::problem::{Observed, Problem, Unknowns, block_diagonal};
-use crate::side::{Interface, Placed, Side};
+use crate::side::{Anew, Interface, Placed, Side};
 
 /// h of both sides at one line.
 pub(super) type Hidden = [DMatrix<Complex64>; 2];
@@ -36,10 +36,11 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
                     name: placed.name.clone(),
                     first: [0, 0],
                     interface: Interface::Node(own.motions_of_one()),
+                    seen: None,
                     struck: None,
                 })
                 .collect(),
-            hits_anew: None,
+            anew: Anew::default(),
         }
     };
     let sides = [side(0), side(1)];
@@ -99,7 +100,7 @@ impl<'p> Model<'p> {
             nodes,
             assembled: Assembled::new(nodes, &joint)?,
             all: [
-                block_diagonal([&a.reduction.rows, &b.reduction.rows]),
+                block_diagonal([&a.seen, &b.seen]),
                 block_diagonal([&a.struck, &b.struck]),
             ],
             rows,
@@ -136,7 +137,7 @@ impl<'p> Model<'p> {
         };
         let mut left = DMatrix::zeros(responses.nrows(), own.rows.ncols());
         left.view_mut((first_row, 0), own.rows.shape())
-            .copy_from(&own.rows);
+            .copy_from(&self.rows[side].seen);
         let mut of_interface = left.columns_mut(0, motions.len());
         of_interface -= (responses * (a * &at.line.dynamic) * sign).select_columns(&motions);
         let mut right = DMatrix::zeros(own.columns.ncols(), references.nrows());
@@ -172,7 +173,8 @@ impl<'p> Model<'p> {
         .collect()
     }
 
-    /// Of the rows of R_u and of R_f of a side: in the assembly. What its hits alone have beyond those of the substructure acts as the latter.
+    /// Of the rows of R_u and of R_f of a side: in the assembly. What its sensors and hits alone have beyond those of the substructure acts as the
+    /// latter.
     pub(super) fn of_set_up(&self, side: usize, at: &Computed) -> [Group; 2] {
         let before = match side {
             0 => [0; 4],

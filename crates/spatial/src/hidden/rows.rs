@@ -12,11 +12,15 @@ use crate::side::{Reduction, Side};
 pub(super) struct Rows {
     /// R_u, responses × (motions + others); R_f, references × (motions + others); and their inverses.
     pub(super) reduction: Reduction,
+    /// R_u of the assembly, whose sensors may be elsewhere.
+    pub(super) seen: DMatrix<Complex64>,
     /// R_f of the assembly, whose hits may be others.
     pub(super) struck: DMatrix<Complex64>,
     /// dR_u by each error of the sensors, channels × motions; dR_f by each of the impacts, impacts × motions.
     pub(super) changes: [Vec<DMatrix<f64>>; 2],
-    /// Likewise dR_f of the assembly by each error of its hits against these.
+    /// Likewise dR_u of the assembly by each error of its sensors against these.
+    pub(super) of_sensors: Vec<DMatrix<f64>>,
+    /// And dR_f by each of its hits.
     pub(super) of_hits: Vec<DMatrix<f64>>,
 }
 
@@ -25,18 +29,27 @@ impl Rows {
         let displaced = side.displaced(errors)?;
         let reduction = displaced.reduction()?;
         let mut changes = [Vec::new(), Vec::new()];
-        let mut of_hits = Vec::new();
+        let [mut of_sensors, mut of_hits] = [Vec::new(), Vec::new()];
+        let mut seen = reduction.rows.clone();
         let mut struck = reduction.columns.clone();
         if let Some((placed, set_up)) = displaced.points() {
             let motions = reduction.own.rows();
-            if let Some(own) = &placed.struck {
-                let own = own.select_columns(&motions).map(Complex64::from);
-                let mut near = struck.view_mut((0, 0), own.shape());
-                near += own;
+            for (rows, own) in [(&mut seen, &placed.seen), (&mut struck, &placed.struck)] {
+                if let Some(own) = own {
+                    let own = own.select_columns(&motions).map(Complex64::from);
+                    let mut near = rows.view_mut((0, 0), own.shape());
+                    near += own;
+                }
             }
-            if let Some((placed, _)) = side.points().filter(|_| side.hits_anew.is_some()) {
-                let hits = placed.hits().into_iter();
-                of_hits.extend(hits.map(|(_, change)| change.select_columns(&motions)));
+            if let Some((placed, _)) = side.points() {
+                for (all, role, anew) in [
+                    (&mut of_sensors, Role::Channel, side.anew.sensors),
+                    (&mut of_hits, Role::Impact, side.anew.hits),
+                ] {
+                    let poses = anew.map_or_else(Vec::new, |_| placed.poses(role));
+                    let changes = poses.into_iter();
+                    all.extend(changes.map(|(_, change)| change.select_columns(&motions)));
+                }
             }
             let mut rest = errors;
             for (own, role) in changes.iter_mut().zip([Role::Channel, Role::Impact]) {
@@ -53,8 +66,10 @@ impl Rows {
         }
         Ok(Self {
             reduction,
+            seen,
             struck,
             changes,
+            of_sensors,
             of_hits,
         })
     }
@@ -66,15 +81,16 @@ impl Rows {
         [&self.reduction.rows, &self.reduction.columns].map(near)
     }
 
-    /// What each error does, by the dyads of the channels (first those, channel by channel, all motions each), of the impacts and of
-    /// the assembly's hits (motion by motion, all impacts each); `first` is the place of the first dyad.
+    /// What each error does, by the dyads of the channels (first those, channel by channel, all motions each), of the impacts (motion
+    /// by motion, all impacts each) and likewise of the assembly's sensors and hits; `first` is the place of the first dyad.
     pub(super) fn patterns(&self, first: usize) -> Vec<Pattern> {
         let [channels, impacts] = self.near();
         let motions = self.reduction.own.count();
-        let of_channels = self.changes[0].iter().map(|change| {
+        let of_motions = move |first: usize, change: &DMatrix<f64>| {
             let places = (0..channels).flat_map(|p| (0..motions).map(move |q| (p, q)));
             Pattern::new(places.map(|(p, q)| (first + motions * p + q, change[(p, q)])))
-        });
+        };
+        let of_channels = self.changes[0].iter().map(|own| of_motions(first, own));
         let first = first + motions * channels;
         let of_forces = move |first: usize, change: &DMatrix<f64>| {
             let places = (0..motions).flat_map(|p| (0..impacts).map(move |q| (p, q)));
@@ -82,14 +98,27 @@ impl Rows {
         };
         let of_impacts = self.changes[1].iter().map(|own| of_forces(first, own));
         let first = first + motions * impacts;
+        let of_sensors = self.of_sensors.iter().map(|own| of_motions(first, own));
+        let first = first + self.again()[0];
         let of_hits = self.of_hits.iter().map(|own| of_forces(first, own));
-        of_channels.chain(of_impacts).chain(of_hits).collect()
+        let of_all = of_channels.chain(of_impacts);
+        of_all.chain(of_sensors).chain(of_hits).collect()
     }
 
     /// Dyads that these are made of.
     pub(super) fn dyads(&self) -> usize {
         let [channels, impacts] = self.near();
-        let again = if self.of_hits.is_empty() { 0 } else { impacts };
-        self.reduction.own.count() * (channels + impacts + again)
+        let [of_sensors, of_hits] = self.again();
+        self.reduction.own.count() * (channels + impacts) + of_sensors + of_hits
+    }
+
+    /// Dyads of the assembly's sensors and of its hits, where they may be elsewhere.
+    fn again(&self) -> [usize; 2] {
+        let [channels, impacts] = self.near();
+        let of = |own: &[DMatrix<f64>], count: usize| match own.is_empty() {
+            true => 0,
+            false => self.reduction.own.count() * count,
+        };
+        [of(&self.of_sensors, channels), of(&self.of_hits, impacts)]
     }
 }

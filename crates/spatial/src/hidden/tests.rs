@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 
 use super::follow::advanced;
 use super::*;
-use crate::samples::{number, problem, problem_hit_anew, unknowns};
+use crate::samples::{number, problem, problem_anew, unknowns};
 
 const NOISE: [f64; 2] = [0.02, 0.03];
 
@@ -56,8 +56,8 @@ fn the_descent_is_that_of_the_squares_without_h() {
 }
 
 #[test]
-fn the_descent_by_hits_anew_is_that_of_the_squares_without_h() {
-    compare_descent(problem_hit_anew());
+fn the_descent_by_what_is_anew_is_that_of_the_squares_without_h() {
+    compare_descent(problem_anew());
 }
 
 fn compare_descent(problem: Problem) {
@@ -86,8 +86,8 @@ fn the_information_is_that_of_a_table_of_differences() {
 }
 
 #[test]
-fn the_information_on_hits_anew_is_that_of_a_table_of_differences() {
-    compare_information(problem_hit_anew());
+fn the_information_on_what_is_anew_is_that_of_a_table_of_differences() {
+    compare_information(problem_anew());
 }
 
 fn compare_information(problem: Problem) {

@@ -109,6 +109,50 @@ def test_hits_of_the_assembly_may_be_elsewhere(run, tmp_path, scatter_m, stated,
     assert 0.5 < np.sqrt(np.mean(np.square(errors))) < 1.35 and np.abs(errors).max() < 4
 
 
+@pytest.mark.parametrize("stated, hits_m", [("", 0.0), ("sensors = { position = 3e-4, rotation = 5e-3 }", 0.0), ("", 2e-4)])
+def test_sensors_may_be_mounted_anew(run, tmp_path, stated, hits_m):
+    """0.3 mm and 0.26° from where they were in the tests of the parts: without errors of their own, eight deviations off."""
+    rig, rng = Rig(K, C), np.random.default_rng(11)
+    rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
+    again = []
+    for side, (u, f) in enumerate(rows):
+        places, hits, directions = rig.sides[side]
+        more = []
+        for p in places:
+            moved, turned = rng.normal(size=3) * 3e-4, rng.normal(size=3) * 4.5e-3
+            more += [row(p + moved, e + np.cross(turned, e)) - row(p, e) for e in np.eye(3)]
+        of_hits = [row(p + rng.normal(size=3) * hits_m, d) - row(p, d) for p, d in zip(hits, directions)]
+        again.append((u + np.array(more), f + np.array(of_hits)))
+    with_other_assembly(rig, tmp_path, rows, rig, again, 0.003, rng)
+    study = tmp_path / "study.toml"
+    study.write_text(study.read_text().replace("gain = 1e-2 }", "gain = 1e-2, " + stated + " }" if stated else "gain = 1e-2 }"))
+    found = identified(run, tmp_path)
+    assert not any("what is left is no noise" in own for own in found["warnings"]), found["warnings"]
+    for name, is_told in (("sensors", not stated), ("hits", hits_m > 0)):
+        told = [own for own in found["warnings"] if f"{name} of the assembly are not where" in own]
+        assert len(told) == is_told, found["warnings"]
+        if is_told:
+            scatter_m = {"sensors": 3e-4, "hits": hits_m}[name]
+            assert abs(1e-3 * float(told[0].split("by ")[1].split(" mm")[0]) / scatter_m - 1) < 0.3, told
+    errors = in_deviations(found["joint_file"])
+    assert 0.4 < np.sqrt(np.mean(np.square(errors))) < 1.35 and np.abs(errors).max() < 4
+
+
+def test_what_moves_the_interface_is_not_taken_for_noise(run, tmp_path):
+    """1 % of noise on the parts, of which the study knows nothing."""
+    rig, rng = Rig(K, C), np.random.default_rng(14)
+    rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
+    with_other_assembly(rig, tmp_path, rows, rig, rows, 0.003, rng)
+    for file in "ab":
+        functions = dict(np.load(tmp_path / f"{file}.npz"))
+        shape = functions["frf"].shape
+        noise = 0.01 * (rng.normal(size=shape) + 1j * rng.normal(size=shape)) / np.sqrt(2)
+        np.savez(tmp_path / f"{file}.npz", **functions | {"frf": functions["frf"] * (1 + noise)})
+    refused = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3).stderr
+    reasons = refused.partition("not to be relied on")[2]
+    assert "what is left is no noise" in reasons and "noise of a and b" in reasons, refused
+
+
 @pytest.mark.parametrize("side, grams", [(0, 5.0), (1, 2.0), (0, 0.0)])
 def test_a_mass_that_the_assembly_alone_has_is_told(program, tmp_path, side, grams):
     """A bolt that neither structure had in its own test: told with its mass, on the side that has it."""

@@ -60,17 +60,28 @@ impl SpatialStudy {
             let is_explained = matches!(anew.is_explained(&found), Ok(true));
             is_explained.then_some((anew, found))
         };
-        let first_of = |kind: Anew| {
+        // from what was found with others, or with none
+        let near = |kind: Anew, before: &Problem, found: &Found| {
             let anew = self.with_anew(kind);
-            let found = anew.searched(rms, Extent::First);
-            explained(anew, found)
+            let begun = found.for_anew(before, &anew.problem);
+            let with = anew.found_from(rms, begun).map(Some);
+            explained(anew, with)
+        };
+        // of one search alone: most that come to nothing have another reason
+        let searched = || {
+            let both = self.with_anew(BOTH);
+            let found = both.searched(rms, Extent::First);
+            let (both, found) = explained(both, found)?;
+            let mut one = [HITS, SENSORS].into_iter();
+            let one = one.find_map(|kind| near(kind, &both.problem, &found));
+            one.or(Some((both, found)))
         };
         // with them, where the likely starts without them come to nothing
         let mut asked = None;
         let found = self.searched(
             rms,
             Extent::Unless(&mut || {
-                let with = [HITS, BOTH].into_iter().find_map(first_of);
+                let with = searched();
                 let is_found = with.is_some();
                 asked = Some(with);
                 is_found
@@ -87,14 +98,10 @@ impl SpatialStudy {
                 } else {
                     HITS
                 };
-                [likely, BOTH].into_iter().find_map(|kind| {
-                    let anew = self.with_anew(kind);
-                    let begun = found.for_anew(&self.problem, &anew.problem);
-                    let with = anew.found_from(rms, begun).map(Some);
-                    explained(anew, with)
-                })
+                let mut kinds = [likely, BOTH].into_iter();
+                kinds.find_map(|kind| near(kind, &self.problem, found))
             }
-            (None, _) => [HITS, SENSORS, BOTH].into_iter().find_map(first_of),
+            (None, _) => searched(),
         };
         match with {
             Some((anew, with)) => Ok((Cow::Owned(anew), with)),
@@ -126,11 +133,18 @@ impl Problem {
         self.sides.iter().any(|side| side.anew != Anew::default())
     }
 
-    /// Unknowns of a problem with nothing anew, for this one, which has some.
+    /// Unknowns of a problem with others anew, or with nothing, for this one.
     pub(crate) fn unknowns_with_anew(&self, before: &Problem, unknowns: &Unknowns) -> Unknowns {
         let mut errors = before.errors(unknowns);
         for (errors, side) in errors.iter_mut().zip(&self.sides) {
-            errors.resize(side.parameters().len(), 0.0);
+            let parameters = side.parameters();
+            errors.truncate(
+                parameters
+                    .iter()
+                    .filter(|one| one.test == Test::All)
+                    .count(),
+            );
+            errors.resize(parameters.len(), 0.0);
         }
         let joint = unknowns.0.rows(0, before.joint_count()).into_owned();
         Unknowns(joint).beside(&errors)

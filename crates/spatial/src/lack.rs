@@ -25,19 +25,31 @@ pub(crate) const LACKING: f64 = 1.4;
 /// Residuals of this part of the functions are rounding, or nearly so.
 pub(crate) const ROUNDING: f64 = 1e-5;
 
+/// Likewise, above which deviations say nothing any more: they may be too small by a factor of three.
+const HOPELESS: f64 = 9.0;
+
 /// What is said where residuals are no noise.
-pub(crate) fn warning(
-    problem: &Problem,
-    unknowns: &Unknowns,
-) -> Result<Option<String>, SpatialError> {
+pub(crate) enum Told {
+    /// Beside a result.
+    Warning(String),
+    /// Against it.
+    Reason(String),
+}
+
+/// What is said of these.
+pub(crate) fn told(problem: &Problem, unknowns: &Unknowns) -> Result<Option<Told>, SpatialError> {
     let ratio = of(problem, unknowns)?;
     Ok((ratio > LACKING).then(|| {
-        format!(
+        let text = format!(
             "what is left is no noise: the interface moves in it as a rigid body, {ratio:.1} times as much as noise would make it; something \
              is left out (hits or sensors beside their places in the other tests, masses of bolts, noise of a and b), and deviations \
              are too small, by a factor of up to {:.1}",
             ratio.sqrt()
-        )
+        );
+        match ratio > HOPELESS {
+            true => Told::Reason(text),
+            false => Told::Warning(text),
+        }
     }))
 }
 

@@ -113,9 +113,13 @@ impl SpatialStudy {
         if result.relative_rms < LARGEST_RESIDUAL {
             result.warnings = odd_channels(&compared, &alone.unknowns, &self.noise_of_functions())?;
         }
+        let mut of_rest = None;
         if best.has_converged && result.substructures.is_none() {
-            let of_rest = lack::warning(&compared, &alone.unknowns)?;
-            result.warnings.extend(of_rest);
+            match lack::told(&compared, &alone.unknowns)? {
+                Some(lack::Told::Warning(text)) => result.warnings.push(text),
+                Some(lack::Told::Reason(text)) => of_rest = Some(text),
+                None => {}
+            }
         }
         let of_budget = contradicted::warnings(problem, &result.errors);
         result.warnings.extend(of_budget);
@@ -123,6 +127,7 @@ impl SpatialStudy {
         result.warnings.extend(lossy::warning(further));
         result.warnings.extend(massive::warning(further));
         result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
+        result.reasons_against.extend(of_rest);
         result.reasons_against.extend(reasons::of_rivals(*rivals));
         let of_energy = match lossy::is_lossy(further) {
             true => reasons::of_lossy_energy(squares_from_free, count),

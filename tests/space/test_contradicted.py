@@ -138,19 +138,17 @@ def test_sensors_may_be_mounted_anew(run, tmp_path, stated, hits_m):
     assert 0.4 < np.sqrt(np.mean(np.square(errors))) < 1.35 and np.abs(errors).max() < 4
 
 
+@pytest.mark.long
 def test_what_moves_the_interface_is_not_taken_for_noise(run, tmp_path):
-    """1 % of noise on the parts, of which the study knows nothing."""
+    """Channels of the assembly whose calibration is 1 % off in that test: seven deviations, and residuals tell no level of noise."""
     rig, rng = Rig(K, C), np.random.default_rng(14)
     rows = [rig.rows(side, (rng, 1e-4, 1e-3, 1e-3)) for side in range(2)]
-    with_other_assembly(rig, tmp_path, rows, rig, rows, 0.003, rng)
-    for file in "ab":
-        functions = dict(np.load(tmp_path / f"{file}.npz"))
-        shape = functions["frf"].shape
-        noise = 0.01 * (rng.normal(size=shape) + 1j * rng.normal(size=shape)) / np.sqrt(2)
-        np.savez(tmp_path / f"{file}.npz", **functions | {"frf": functions["frf"] * (1 + noise)})
+    again = [(u * (1 + 0.01 * rng.normal(size=(len(u), 1))), f) for u, f in rows]
+    with_other_assembly(rig, tmp_path, rows, rig, again, 0.003, rng)
     refused = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=3).stderr
     reasons = refused.partition("not to be relied on")[2]
-    assert "what is left is no noise" in reasons and "noise of a and b" in reasons, refused
+    assert "what is left is no noise" in reasons, refused
+    assert "check its calibration in that test" in refused
 
 
 @pytest.mark.parametrize("side, grams", [(0, 5.0), (1, 2.0), (0, 0.0)])

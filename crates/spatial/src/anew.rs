@@ -10,16 +10,22 @@ use bolted_joint_virtual_point::{Change, Role};
 
 use crate::budget::TYPICAL_ANEW;
 use crate::error::SpatialError;
-use crate::estimate::Found;
+use crate::estimate::{Found, Refined};
+use crate::fit::{Effort, Fit};
 use crate::lack;
+use crate::level::of_residuals;
 use crate::normal::Deviations;
 use crate::problem::{Level, Problem, Unknowns};
-use crate::search::Extent;
+use crate::search::{BY_CHANCE, Extent, by_chance};
 use crate::side::{Anew, Test};
 use crate::study::SpatialStudy;
+use crate::together::LINES_MAX;
 
 /// Squares over numbers that noise of a stated level explains.
 const EXPLAINED: f64 = 1.2;
+
+/// What is left of that beside noise after a few steps that promise something.
+const PROMISING: f64 = 0.5;
 
 /// What may be elsewhere.
 const HITS: Anew = Anew {
@@ -73,7 +79,11 @@ impl SpatialStudy {
             let found = both.searched(rms, Extent::First);
             let (both, found) = explained(both, found)?;
             let mut one = [HITS, SENSORS].into_iter();
-            let one = one.find_map(|kind| near(kind, &both.problem, &found));
+            let one = one.find_map(|kind| {
+                let (anew, one) = near(kind, &both.problem, &found)?;
+                let fewer = both.problem.error_count() - anew.problem.error_count();
+                is_as_good(&one.joint, &found.joint, fewer).then_some((anew, one))
+            });
             one.or(Some((both, found)))
         };
         // with them, where the likely starts without them come to nothing
@@ -99,7 +109,10 @@ impl SpatialStudy {
                     HITS
                 };
                 let mut kinds = [likely, BOTH].into_iter();
-                kinds.find_map(|kind| near(kind, &self.problem, found))
+                kinds.find_map(|kind| {
+                    let is_promising = self.promises(kind, found, rms).unwrap_or(false);
+                    is_promising.then(|| near(kind, &self.problem, found))?
+                })
             }
             (None, _) => searched(),
         };
@@ -107,6 +120,21 @@ impl SpatialStudy {
             Some((anew, with)) => Ok((Cow::Owned(anew), with)),
             None => own(found),
         }
+    }
+
+    /// Whether a few steps with these lead to where the interface moves less as a rigid body in what is left. Where something else is
+    /// wrong, a search to the end creeps.
+    fn promises(&self, kind: Anew, found: &Found, rms: &Deviations) -> Result<bool, SpatialError> {
+        let level = of_residuals(&self.problem, &found.best.unknowns, rms)?;
+        let thin = self.problem.thinned(LINES_MAX).with_anew(kind);
+        let start = thin.unknowns_with_anew(&self.problem, &found.best.unknowns);
+        let lack = |unknowns: &Unknowns| {
+            let joint = unknowns.0.rows(0, thin.joint_count()).into_owned();
+            lack::of(&thin.displaced(unknowns)?, &Unknowns(joint))
+        };
+        let before = lack(&start)?;
+        let fit = Fit::of(&thin, start, &level, Effort::Coarse)?;
+        Ok(lack(&fit.unknowns)? < (PROMISING * before).max(lack::LACKING))
     }
 
     fn with_anew(&self, kind: Anew) -> Self {
@@ -126,6 +154,12 @@ impl SpatialStudy {
             self.has_noise() || lack::of(&found.shown, &found.joint.unknowns)? < lack::LACKING;
         Ok(found.joint.has_converged && by_level && by_motion)
     }
+}
+
+/// Whether so many unknowns fewer leave no more than by chance.
+fn is_as_good(one: &Refined, both: &Refined, fewer: usize) -> bool {
+    let [own, of_both] = [one, both].map(|own| own.squares / own.numbers as f64);
+    (own - of_both) * (both.numbers as f64) < by_chance(fewer, BY_CHANCE)
 }
 
 impl Problem {

@@ -28,7 +28,7 @@ pub(crate) fn beside(
     let mut lowest = lowest.clone();
     for _ in 0..ROUNDS {
         let starts = starts(&lowest.unknowns, &information(&lowest.unknowns)?);
-        let ended = over_each(&starts, |start| follow(start));
+        let ended = over_each(&starts, &follow);
         all.extend(ended.into_iter().flatten());
         let least = all
             .iter()

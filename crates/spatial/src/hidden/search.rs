@@ -60,18 +60,18 @@ pub(crate) fn searched_beside(
         return compared(Comparison::new(given, squares), starts, extent);
     }
     let mut searches = Searches::new(given, squares);
-    if !searches.follow(starts.by_ref().take(AT_FIRST)) {
-        if !given.of_low().any(|found| searches.holds(found)) {
-            match extent {
-                Extent::First => return Ok(None),
-                Extent::Likely => {}
-                Extent::Unless(elsewhere) => match elsewhere() {
-                    true => return Ok(None),
-                    false => {
-                        searches.follow(starts);
-                    }
-                },
-            }
+    if !searches.follow(starts.by_ref().take(AT_FIRST))
+        && !given.of_low().any(|found| searches.holds(found))
+    {
+        match extent {
+            Extent::First => return Ok(None),
+            Extent::Likely => {}
+            Extent::Unless(elsewhere) => match elsewhere() {
+                true => return Ok(None),
+                false => {
+                    searches.follow(starts);
+                }
+            },
         }
     }
     searches.ended().map(Some)

@@ -87,6 +87,8 @@ def test_a_part_of_a_chain_takes_them_as_well(run, tmp_path):
         ([("[joint]", "[budget]\ngain = -1\n[joint]")], ["`budget.gain`: found -1", "\"exact\""]),
         ([("[joint]", "[budget]\nhits = { position = 1 }\n[joint]")], ["`budget.hits.position`: found 1", "millimetres"]),
         ([("[joint]", "[budget]\nhits = { rotation = -1 }\n[joint]")], ["`budget.hits.rotation`: found -1", "\"exact\""]),
+        ([("[joint]", "[budget]\nsensors = { position = 1 }\n[joint]")], ["`budget.sensors.position`: found 1", "millimetres"]),
+        ([("[joint]", "[budget]\nsensors = { rotation = -1 }\n[joint]")], ["`budget.sensors.rotation`: found -1", "\"exact\""]),
         ([("[joint]", "[budget]\nhits = 1e-3\n[joint]")], ["hits = 1e-3", "a table with position and rotation"]),
         ([("[joint]", "[budget]\nhits = { gain = 0.01 }\n[joint]")], ["`gain`", "position"]),
         ([('motions = ["y", "rz"]', "motions = []")], ["`motions`: found an empty list, expected 1 or more"]),

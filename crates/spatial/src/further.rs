@@ -11,9 +11,10 @@ use crate::dyads::{Grid, descent, product, squares};
 use crate::error::SpatialError;
 use crate::normal::{Deviations, Normal, residuals};
 use crate::parallel::over_lines;
-use crate::patterns::{Patterns, Slopes};
+use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
 use crate::side::MOTIONS;
+use crate::sums::Slopes;
 use crate::together::LINES_MAX;
 
 /// A number that the model does not have.

@@ -57,8 +57,10 @@ mod spread;
 mod starts;
 mod steps;
 mod study;
+mod sums;
 mod tables;
 mod together;
+mod transformations;
 mod valley;
 
 pub use chain::{

@@ -9,8 +9,9 @@ use crate::assembled::{Assembled, Line};
 use crate::dyads::{Grid, add_below, descent, side_by_side, squares};
 use crate::error::SpatialError;
 use crate::parallel::over_lines;
-use crate::patterns::{Patterns, Slopes, Sums};
+use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
+use crate::sums::{Slopes, Sums};
 
 /// Weighted squares and what they say of a step.
 pub(crate) struct Normal {

@@ -15,6 +15,7 @@ use crate::error::SpatialError;
 use crate::links::Sought;
 use crate::normal::Normal;
 use crate::problem::Problem;
+use crate::sums::{Slopes, Sums};
 
 /// One unknown's dyads, θ_pq at p·right + q of its group, counted through all groups, and their weights.
 #[derive(Clone, Debug)]
@@ -86,95 +87,6 @@ impl Line {
             right: self.joint_motions.rows_range(joint.motions()).into_owned(),
         };
         problem.links.sought().iter().map(of).collect()
-    }
-}
-
-/// Sums over lines of M = Σ w conj(∂f/∂θ) ∂f/∂θ′ for all pairs of dyads, as far as the unknowns need them.
-#[derive(Default)]
-pub(crate) struct Sums {
-    /// Σ Re M, its lower triangle.
-    flat: DMatrix<f64>,
-    /// Σ ω Im M, rows of the joints' dyads.
-    tilted: DMatrix<f64>,
-    /// Σ ω² Re M of the joints' dyads.
-    curved: DMatrix<f64>,
-    slopes: Slopes,
-    squares: f64,
-}
-
-/// Sums over lines of s = Σ w conj(∂f/∂θ) e for all dyads.
-#[derive(Clone, Default)]
-pub(crate) struct Slopes {
-    /// Σ Re s
-    flat: DVector<f64>,
-    /// Σ ω Im s of the joints' dyads.
-    tilted: DVector<f64>,
-}
-
-impl Slopes {
-    /// A line with s; the first dyads are those of the joints.
-    pub(crate) fn add_line(&mut self, omega: f64, of_joints: usize, slopes: &DVector<Complex64>) {
-        self.add(&Self {
-            flat: slopes.map(|sum| sum.re),
-            tilted: slopes.rows(0, of_joints).map(|sum| omega * sum.im),
-        });
-    }
-
-    pub(crate) fn add(&mut self, other: &Self) {
-        if self.flat.is_empty() {
-            self.clone_from(other);
-        } else if !other.flat.is_empty() {
-            self.flat += &other.flat;
-            self.tilted += &other.tilted;
-        }
-    }
-}
-
-impl Sums {
-    /// A line with the lower triangle of M, and s; the first dyads are those of the joints.
-    pub(crate) fn add_line(
-        &mut self,
-        omega: f64,
-        of_joints: usize,
-        below: &DMatrix<Complex64>,
-        slopes: &DVector<Complex64>,
-        squares: f64,
-    ) {
-        if self.flat.is_empty() {
-            let count = below.nrows();
-            self.flat = DMatrix::zeros(count, count);
-            self.tilted = DMatrix::zeros(of_joints, count);
-            self.curved = DMatrix::zeros(of_joints, of_joints);
-        }
-        self.flat.zip_apply(below, |own, sum| *own += sum.re);
-        let of = |i: usize, j: usize| match i < j {
-            true => below[(j, i)].conj(),
-            false => below[(i, j)],
-        };
-        for i in 0..of_joints {
-            for j in 0..below.ncols() {
-                self.tilted[(i, j)] += omega * of(i, j).im;
-            }
-            for j in 0..of_joints {
-                self.curved[(i, j)] += omega * omega * of(i, j).re;
-            }
-        }
-        self.slopes.add_line(omega, of_joints, slopes);
-        self.squares += squares;
-    }
-
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.slopes.add(&other.slopes);
-        self.squares += other.squares;
-        if self.flat.is_empty() {
-            self.flat = other.flat.clone();
-            self.tilted = other.tilted.clone();
-            self.curved = other.curved.clone();
-        } else {
-            self.flat += &other.flat;
-            self.tilted += &other.tilted;
-            self.curved += &other.curved;
-        }
     }
 }
 

@@ -10,7 +10,8 @@ use num_complex::Complex64;
 use crate::budget::EXACT;
 use crate::error::SpatialError;
 use crate::links::{Links, Sought};
-use crate::side::{Anew, Side, Transformations};
+use crate::side::{Anew, Side};
+use crate::transformations::Transformations;
 
 /// How large the noise of the assembly's functions is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use num_complex::Complex64;
 
 use crate::error::SpatialError;
 use crate::problem::{Problem, Unknowns, block_diagonal};
-use crate::side::Transformations;
+use crate::transformations::Transformations;
 
 /// The model at one set of unknowns.
 pub(crate) struct Assembled<'p> {

@@ -73,13 +73,10 @@ impl Archive {
         let ascii = description
             .chars()
             .map(|c| if c.is_ascii() { c } else { '?' });
-        let ascii: Vec<u8> = ascii.map(|c| c as u8).collect();
-        self.put(
-            "description",
-            &format!("|S{}", ascii.len().max(1)),
-            "()",
-            &ascii,
-        )?;
+        let mut ascii: Vec<u8> = ascii.map(|c| c as u8).collect();
+        // NumPy has no bytes of no length
+        ascii.resize(ascii.len().max(1), 0);
+        self.put("description", &format!("|S{}", ascii.len()), "()", &ascii)?;
         self.put_text("quantity", "receptance")?;
         self.put_text("axes", "frequency,response,reference")?;
         let texts = |dofs: &[Dof]| dofs.iter().map(Dof::to_string).collect::<Vec<_>>();
@@ -176,5 +173,20 @@ mod tests {
             ),
             "{refused}"
         );
+    }
+
+    /// By the reader, which is tested with archives of NumPy; also without a description.
+    #[test]
+    fn what_was_written_is_read() {
+        let [response, reference] = ["1:+X", "2:+RZ"].map(|dof| dof.parse().unwrap());
+        let values = vec![Complex64::new(0.1, -0.2), Complex64::new(3e-9, 4e9)];
+        let function = Frf::new(response, reference, vec![1.0, 2.5], values).unwrap();
+        let set = FrfSet::new(vec![function.clone()]).unwrap();
+        for description in ["", "π"] {
+            let archive = to_npz(&set, description).unwrap();
+            let options = crate::ReadOptions::default();
+            let read = super::super::read_npz_from(Cursor::new(archive), "x.npz", &options);
+            assert_eq!(read.unwrap().functions(), [function.clone()]);
+        }
     }
 }

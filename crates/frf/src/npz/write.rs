@@ -181,12 +181,13 @@ mod tests {
         let [response, reference] = ["1:+X", "2:+RZ"].map(|dof| dof.parse().unwrap());
         let values = vec![Complex64::new(0.1, -0.2), Complex64::new(3e-9, 4e9)];
         let function = Frf::new(response, reference, vec![1.0, 2.5], values).unwrap();
-        let set = FrfSet::new(vec![function.clone()]).unwrap();
+        let functions = [function];
+        let set = FrfSet::new(functions.to_vec()).unwrap();
         for description in ["", "π"] {
             let archive = to_npz(&set, description).unwrap();
             let options = crate::ReadOptions::default();
             let read = super::super::read_npz_from(Cursor::new(archive), "x.npz", &options);
-            assert_eq!(read.unwrap().functions(), [function.clone()]);
+            assert_eq!(read.unwrap().functions(), functions);
         }
     }
 }

@@ -84,7 +84,7 @@ impl Pair {
             measured: places,
             relative_variance: None,
             repeats: None,
-            floors: Default::default(),
+            shown: Default::default(),
             apart: None,
         }
     }
@@ -124,7 +124,7 @@ pub(crate) fn bolted(
         measured: pairs(count),
         relative_variance: None,
         repeats: None,
-        floors: Default::default(),
+        shown: Default::default(),
         apart: None,
     }
 }

@@ -189,7 +189,7 @@ impl Rig {
             measured: pairs(3),
             relative_variance: None,
             repeats: None,
-            floors: Default::default(),
+            shown: Default::default(),
             apart: None,
         };
         let with = |assembly| Lines {

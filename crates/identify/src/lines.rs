@@ -1,7 +1,5 @@
 //! What the estimator works on: receptances of the substructures and of the assembly, line by line.
 
-use std::sync::OnceLock;
-
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
@@ -11,7 +9,7 @@ use bolted_joint_frf::structure::{ComplexMatrix, Partition, SingularAssembly, tr
 use super::model::JointMatrices;
 use super::parallel;
 use super::receptances::Receptances;
-use super::roughness::Roughness;
+use super::roughness::{Roughness, ShownNoise};
 
 /// Receptances at the lines of one frequency axis.
 #[derive(Clone, Debug)]
@@ -34,8 +32,8 @@ pub struct Lines {
     pub relative_variance: Option<Vec<Vec<f64>>>,
     /// Scatter of repeated measurements of the assembly, of which `assembly` is the mean.
     pub repeats: Option<Repeats>,
-    /// Floor of the noise of each of `measured`, in its unit; found when it is first asked for.
-    pub floors: OnceLock<Vec<f64>>,
+    /// What each of `measured` shows of its noise.
+    pub shown: ShownNoise,
 }
 
 /// Repeated measurements of the same functions.
@@ -60,7 +58,11 @@ impl Lines {
     }
 
     /// Noise of each of `measured`, as it shows by itself.
-    pub(super) fn roughness(&self) -> Vec<Roughness> {
+    pub(super) fn roughness(&self) -> &[Roughness] {
+        self.shown.functions(|| self.find_roughness())
+    }
+
+    fn find_roughness(&self) -> Vec<Roughness> {
         let all: Vec<usize> = (0..self.measured.len()).collect();
         parallel::map(&all, |&index| {
             let place = self.measured[index];
@@ -71,16 +73,12 @@ impl Lines {
         })
     }
 
-    fn floors(&self) -> &[f64] {
-        let of = |rough: &Roughness| rough.floor;
-        self.floors
-            .get_or_init(|| self.roughness().iter().map(of).collect())
-    }
-
     /// Floor of the noise of a measured entry, as it shows by itself: in the entry's unit; zero if it was not measured.
     pub(super) fn floor(&self, place: (usize, usize)) -> f64 {
         let index = self.measured.iter().position(|other| *other == place);
-        index.map_or(0.0, |index| self.floors()[index])
+        index.map_or(0.0, |index| {
+            self.shown.floors(|| self.find_roughness())[index]
+        })
     }
 
     /// Every so many lines, so that at most `most` are left.
@@ -108,7 +106,7 @@ impl Lines {
                 count: repeats.count,
                 scatter: chosen(&repeats.scatter, lines),
             }),
-            floors: self.floors().to_vec().into(),
+            shown: self.shown.of_fewer_lines(|| self.find_roughness()),
         }
     }
 

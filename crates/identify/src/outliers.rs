@@ -85,7 +85,7 @@ impl Candidates {
                 let at = |line: usize| {
                     let suspicious = |rough: &Roughness| rough.suspicious.contains(&line);
                     let functions = functions.iter();
-                    functions.filter(|of| suspicious(&of.rough)).count()
+                    functions.filter(|of| suspicious(of.rough)).count()
                 };
                 let is_single = |line: usize| functions.len() < 3 || 2 * at(line) < functions.len();
                 let peaks: Vec<&[usize]> = functions.iter().map(|of| of.peaks.as_slice()).collect();
@@ -225,31 +225,27 @@ impl Candidates {
 }
 
 /// A measured function and its noise.
-struct Function {
+struct Function<'l> {
     response: Dof,
     reference: Dof,
     /// Row and column in the assembly's matrix.
     place: Option<(usize, usize)>,
-    rough: Roughness,
+    rough: &'l Roughness,
     /// Lines of peaks that are too sharp for the lines.
     peaks: Vec<usize>,
 }
 
 /// The measured functions of an assembly, with its number if there are several, and of its substructures, by set.
-fn functions(
-    lines: &Lines,
+fn functions<'l>(
+    lines: &'l Lines,
     labels: [&[Dof]; 2],
     number: Option<usize>,
-) -> Vec<(String, Vec<Function>)> {
+) -> Vec<(String, Vec<Function<'l>>)> {
     let assembly = match number {
         Some(number) => format!("assembly {}", number + 1),
         None => "assembly".to_owned(),
     };
-    let rough = lines.roughness();
-    lines
-        .floors
-        .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
-    let own = lines.measured.iter().zip(rough);
+    let own = lines.measured.iter().zip(lines.roughness());
     let own = own.map(|(&(p, q), rough)| Function {
         response: lines.points[p],
         reference: lines.points[q],
@@ -333,8 +329,6 @@ fn known(kept: &[(Receptances, Receptances)], receptances: &Receptances) -> Opti
 
 #[cfg(test)]
 mod tests {
-    use std::sync::OnceLock;
-
     use bolted_joint_frf::structure::ComplexMatrix;
     use nalgebra::DMatrix;
     use num_complex::Complex64;
@@ -343,6 +337,7 @@ mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
     use super::*;
+    use crate::ShownNoise;
     use crate::receptances::MeasuredSubstructure;
 
     /// Shapes of B's modes at four places, and the frequency of the first, Hz. The loss factor is 0.002.
@@ -389,7 +384,7 @@ mod tests {
             measured: Vec::new(),
             relative_variance: None,
             repeats: None,
-            floors: OnceLock::new(),
+            shown: ShownNoise::default(),
             frequency_hz,
         }
     }

@@ -1,7 +1,7 @@
 //! Receptances of a substructure, computed or measured.
 
 use std::borrow::Cow;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -10,7 +10,7 @@ use bolted_joint_frf::structure::ComplexMatrix;
 
 use super::lines::chosen;
 use super::parallel;
-use super::roughness::Roughness;
+use super::roughness::{Roughness, ShownNoise};
 
 /// Receptances of a substructure between the joint's DOFs, bolt by bolt, and then its points, at each line.
 #[derive(Clone, Debug)]
@@ -149,8 +149,8 @@ pub struct MeasuredSubstructure {
     /// Which of the measured DOFs are rotations; none, if nothing is said.
     rotations: Vec<bool>,
     frequency_hz: Vec<f64>,
-    /// Floor of the noise of each of `functions`, in its unit.
-    floors: OnceLock<Vec<f64>>,
+    /// What each of `functions` shows of its noise.
+    shown: ShownNoise,
     /// The same as it was measured, where `functions` are those with a mass that is known.
     before: Option<Arc<MeasuredSubstructure>>,
 }
@@ -180,7 +180,7 @@ impl MeasuredSubstructure {
             lost: None,
             rotations: Vec::new(),
             frequency_hz: Vec::new(),
-            floors: OnceLock::new(),
+            shown: ShownNoise::default(),
             before: None,
         }
     }
@@ -200,7 +200,7 @@ impl MeasuredSubstructure {
         let of = |place| Arc::new(matrices.iter().map(|matrix| matrix[place]).collect());
         Some(Self {
             functions: places.map(of).collect(),
-            floors: OnceLock::new(),
+            shown: ShownNoise::default(),
             before: Some(Arc::new(self.clone())),
             ..self
         })
@@ -244,7 +244,11 @@ impl MeasuredSubstructure {
     }
 
     /// Noise of each of `functions`, as it shows by itself.
-    fn roughness(&self) -> Vec<Roughness> {
+    fn roughness(&self) -> &[Roughness] {
+        self.shown.functions(|| self.find_roughness())
+    }
+
+    fn find_roughness(&self) -> Vec<Roughness> {
         let even: Vec<f64> = (0..self.lines()).map(|line| line as f64).collect();
         let axis = match self.frequency_hz.is_empty() {
             true => &even,
@@ -256,27 +260,18 @@ impl MeasuredSubstructure {
     }
 
     /// The same of those that were measured, by row and column.
-    pub(super) fn measured_functions(&self) -> Vec<((usize, usize), Roughness)> {
-        let rough = self.roughness();
-        self.floors
-            .get_or_init(|| rough.iter().map(|rough| rough.floor).collect());
+    pub(super) fn measured_functions(&self) -> Vec<((usize, usize), &Roughness)> {
         let columns = 0..self.transformation.ncols();
         let places = columns.flat_map(|column| (0..=column).map(move |row| (row, column)));
-        let is_measured = |&((row, column), _): &((usize, usize), Roughness)| {
+        let is_measured = |&((row, column), _): &((usize, usize), &Roughness)| {
             self.measured.contains(&(row, column)) || self.measured.contains(&(column, row))
         };
-        places.zip(rough).filter(is_measured).collect()
-    }
-
-    fn floors(&self) -> &[f64] {
-        let of = |rough: &Roughness| rough.floor;
-        self.floors
-            .get_or_init(|| self.roughness().iter().map(of).collect())
+        places.zip(self.roughness()).filter(is_measured).collect()
     }
 
     /// Floor of the noise of an entry of U, in its unit.
     pub(super) fn floor(&self, row: usize, column: usize) -> f64 {
-        self.floors()[place(row, column)]
+        self.shown.floors(|| self.find_roughness())[place(row, column)]
     }
 
     /// At these lines. The noise is as all lines show it.
@@ -285,7 +280,7 @@ impl MeasuredSubstructure {
         let known = self.relative_variance.as_ref();
         let axis = &self.frequency_hz;
         Self {
-            floors: self.floors().to_vec().into(),
+            shown: self.shown.of_fewer_lines(|| self.find_roughness()),
             functions: functions
                 .map(|function| Arc::new(chosen(function, lines)))
                 .collect(),
@@ -311,7 +306,7 @@ impl MeasuredSubstructure {
         };
         Self {
             functions: self.functions.iter().map(multiplied).collect(),
-            floors: OnceLock::new(),
+            shown: ShownNoise::default(),
             ..self.clone()
         }
     }

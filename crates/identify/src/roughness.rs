@@ -5,10 +5,13 @@
 //! set-up, and joint models that are too simple, are smooth.
 
 mod fit;
+mod shown_noise;
 
 use num_complex::Complex64;
 
 use fit::{ComplexWindow, Fit, Window};
+
+pub use shown_noise::ShownNoise;
 
 use super::noise::{Sample, Size, most_likely_level};
 
@@ -97,11 +100,14 @@ impl Roughness {
             },
             median: 0.3 * median,
         };
-        function.settle();
+        let distances = function.settle();
         let floor = function.level.floor * function.median;
         let is_measured = function.level.relative.hypot(floor / median) > LEAST_NOISE;
         let (outliers, suspicious) = match is_measured {
-            true => (function.outliers(), function.suspicious()),
+            true => (
+                function.outliers(),
+                function.suspicious(distances.as_deref()),
+            ),
             false => (Vec::new(), Vec::new()),
         };
         Self {
@@ -159,8 +165,11 @@ impl Function<'_> {
     }
 
     /// The level under which the deviations are most likely, weights and level in turn; values that stand out are left out.
-    fn settle(&mut self) {
+    ///
+    /// Returns the distances of the lines in use under that level, if they were needed.
+    fn settle(&mut self) -> Option<Vec<f64>> {
         let mut is_at_rest = false;
+        let mut last = None;
         for _ in 0..ROUNDS {
             is_at_rest = self.refine();
             if is_at_rest {
@@ -168,8 +177,10 @@ impl Function<'_> {
             }
         }
         for _ in 0..REMOVALS {
-            let far = self.farthest();
+            let distances = self.distances();
+            let far = self.farthest(&distances);
             if far.is_empty() {
+                last = Some(distances);
                 break;
             }
             self.used.retain(|line| !far.contains(line));
@@ -180,7 +191,9 @@ impl Function<'_> {
         }
         if !is_at_rest {
             self.refine();
+            last = None;
         }
+        last
     }
 
     /// Says whether the level stays what it was.
@@ -206,15 +219,19 @@ impl Function<'_> {
         change < AT_REST * (self.level.relative + self.level.floor)
     }
 
+    /// Squared deviation of each line in use over its variance; zero where its neighbours say nothing of it.
+    fn distances(&self) -> Vec<f64> {
+        self.used.iter().map(|&line| self.distance(line)).collect()
+    }
+
+    fn distance(&self, line: usize) -> f64 {
+        let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
+        own.map_or(0.0, |own| own.distance)
+    }
+
     /// Lines in use that are far off, each farther than any of those around it.
-    fn farthest(&self) -> Vec<usize> {
-        let distances: Vec<f64> = (self.used.iter())
-            .map(|&line| {
-                let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
-                own.map_or(0.0, |own| own.distance)
-            })
-            .collect();
-        let mut sorted = distances.clone();
+    fn farthest(&self, distances: &[f64]) -> Vec<usize> {
+        let mut sorted = distances.to_vec();
         let middle = sorted.len() / 2;
         let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
         let limit = FAR * (*median / std::f64::consts::LN_2).max(1.0);
@@ -241,11 +258,14 @@ impl Function<'_> {
             .collect()
     }
 
-    fn suspicious(&self) -> Vec<usize> {
-        let is_suspicious = |line: &usize| {
-            let own = self.deviation(*line, WINDOW, NUMERATOR, DENOMINATOR);
-            own.is_some_and(|own| own.distance > SUSPICIOUS)
+    /// `distances` are those of the lines in use, if they are known.
+    fn suspicious(&self, distances: Option<&[f64]>) -> Vec<usize> {
+        let known = |line: usize| {
+            let place = self.used.binary_search(&line).ok()?;
+            distances?.get(place).copied()
         };
+        let is_suspicious =
+            |line: &usize| known(*line).unwrap_or_else(|| self.distance(*line)) > SUSPICIOUS;
         (0..self.values.len()).filter(is_suspicious).collect()
     }
 

@@ -34,7 +34,7 @@ impl Noise {
 }
 
 /// The level of functions, each with whether its response and its reference are rotations.
-fn shown(functions: impl Iterator<Item = ([bool; 2], Roughness)>) -> StatedLevel {
+fn shown<'l>(functions: impl Iterator<Item = ([bool; 2], &'l Roughness)>) -> StatedLevel {
     let mut relative = Vec::new();
     // of translations, of both kinds, of rotations
     let mut floors: [Vec<f64>; 3] = Default::default();

@@ -15,7 +15,10 @@ const BESIDE: usize = 3;
 /// Numbers of poles that are tried, one after the other, until more of them are in vain.
 const FEWEST: usize = 2;
 const MOST: usize = 16;
+/// Most relocations …
 const RELOCATIONS: usize = 12;
+/// … which end when the poles move by less than this part of their half-widths.
+const AT_REST: f64 = 1e-4;
 /// So many further poles may be in vain before no more are tried.
 const PATIENCE: usize = 3;
 /// Above this χ² per degree of freedom a fit is none.
@@ -79,7 +82,12 @@ impl ModalFit {
             .collect();
         let samples: Vec<Option<Samples>> = functions.entries.iter().map(Samples::of).collect();
         for _ in 0..RELOCATIONS {
-            poles = relocated(&poles, &s, &samples)?;
+            let moved = relocated(&poles, &s, &samples)?;
+            let is_at_rest = are_at_rest(&poles, &moved);
+            poles = moved;
+            if is_at_rest {
+                break;
+            }
         }
         // the poles are shared: each costs one complex number in all
         let (mut chi_squared, mut numbers, mut unknowns) = (0.0, 0.0, 2.0 * count as f64);
@@ -89,12 +97,21 @@ impl ModalFit {
                 residues.push(None);
                 continue;
             };
-            let basis = weighted(&poles, &s, sample);
-            let target = sample.weighted();
-            let solved = least_squares(&basis, &target)?;
+            let triangle = triangle(count + BESIDE, &s, sample, |s, value, row| {
+                basis(&poles, s, row);
+                row.push(value);
+            });
+            let own = count + BESIDE;
+            let (system, target) = (
+                triangle.view((0, 0), (own, own)).into_owned(),
+                triangle.view((0, own), (own, 1)).column(0).into_owned(),
+            );
+            let solved = least_squares(&system, &target)?;
             numbers += 2.0 * s.len() as f64;
             unknowns += 2.0 * solved.len() as f64;
-            chi_squared += 2.0 * (basis * &solved - target).norm_squared();
+            // what no residues explain, and what these leave of the rest
+            let beyond = triangle[(own, own)].norm_sqr();
+            chi_squared += 2.0 * (beyond + (system * &solved - target).norm_squared());
             residues.push(Some(solved));
         }
         (numbers > unknowns).then(|| Self {
@@ -114,7 +131,8 @@ impl ModalFit {
 
     fn values_at(&self, omega: f64) -> Vec<Option<Complex64>> {
         let s = Complex64::new(0.0, omega / self.scale);
-        let row: Vec<Complex64> = basis(&self.poles, s).collect();
+        let mut row = Vec::with_capacity(self.poles.len() + BESIDE);
+        basis(&self.poles, s, &mut row);
         let value = |residues: &DVector<Complex64>| -> Complex64 {
             let parts = row.iter().zip(residues.iter());
             parts.map(|(part, residue)| part * residue).sum()
@@ -154,32 +172,41 @@ impl Samples {
             weights,
         })
     }
-
-    fn weighted(&self) -> DVector<Complex64> {
-        DVector::from_iterator(
-            self.values.len(),
-            self.values.iter().zip(&self.weights).map(|(v, w)| v * w),
-        )
-    }
 }
 
-/// 1/((s − p_n)(s − p_n*)), then 1/s², 1, s².
-fn basis(poles: &[Complex64], s: Complex64) -> impl Iterator<Item = Complex64> {
+/// Appends 1/((s − p_n)(s − p_n*)), then 1/s², 1, s².
+fn basis(poles: &[Complex64], s: Complex64, row: &mut Vec<Complex64>) {
     let squared = s * s;
-    let beside = [squared.inv(), Complex64::from(1.0), squared];
-    poles
-        .iter()
-        .map(move |pole| ((s - pole) * (s - pole.conj())).inv())
-        .chain(beside)
+    let of_pole = |pole: &Complex64| ((s - pole) * (s - pole.conj())).inv();
+    row.extend(poles.iter().map(of_pole));
+    row.extend([squared.inv(), Complex64::from(1.0), squared]);
 }
 
-fn weighted(poles: &[Complex64], s: &[Complex64], sample: &Samples) -> DMatrix<Complex64> {
-    let rows: Vec<Complex64> = s
-        .iter()
-        .zip(&sample.weights)
-        .flat_map(|(s, w)| basis(poles, *s).map(move |part| part * w))
-        .collect();
-    DMatrix::from_row_slice(s.len(), poles.len() + BESIDE, &rows)
+/// R of the QR decomposition of a matrix with this row for each line, of s and H, times 1/σ: it says as much as all lines.
+fn triangle(
+    unknowns: usize,
+    s: &[Complex64],
+    sample: &Samples,
+    append: impl Fn(Complex64, Complex64, &mut Vec<Complex64>),
+) -> DMatrix<Complex64> {
+    let mut rows = Vec::with_capacity(s.len() * (unknowns + 1));
+    for ((&s, &value), &weight) in s.iter().zip(&sample.values).zip(&sample.weights) {
+        let from = rows.len();
+        append(s, value, &mut rows);
+        rows[from..].iter_mut().for_each(|part| *part *= weight);
+    }
+    DMatrix::from_row_slice(s.len(), unknowns + 1, &rows)
+        .qr()
+        .unpack_r()
+}
+
+/// Whether no pole moved by more than a small part of its half-width.
+fn are_at_rest(before: &[Complex64], poles: &[Complex64]) -> bool {
+    let is_near = |pole: &Complex64| {
+        let mut before = before.iter();
+        before.any(|before| (pole - before).norm() < AT_REST * pole.re.abs())
+    };
+    poles.iter().all(is_near)
 }
 
 /// Poles that fit better: zeros of σ(s) = 1 + Σ c_n/(s − p_n), where σH and σ are fitted together.
@@ -191,23 +218,17 @@ fn relocated(
     let count = poles.len();
     let mut stacked: Vec<DMatrix<Complex64>> = Vec::new();
     let mut right: Vec<Complex64> = Vec::new();
+    // σ's columns and what they have to explain, behind the function's own residues
+    let own = count + BESIDE;
     for sample in samples.iter().flatten() {
-        let own = weighted(poles, s, sample);
-        let target = sample.weighted();
-        // what the function's own residues cannot take up is left for σ
-        let orthogonal = own.qr().q();
-        let rest =
-            |column: DVector<Complex64>| &column - &orthogonal * (orthogonal.adjoint() * &column);
-        let columns: Vec<DVector<Complex64>> = poles
-            .iter()
-            .map(|pole| rest(DVector::from_fn(s.len(), |i, _| target[i] / (s[i] - pole))))
-            .collect();
-        let projected = DMatrix::from_columns(&columns);
-        let goal = rest(-target);
-        // the triangle says as much as all lines
-        let triangle = projected.clone().qr();
-        right.extend((triangle.q().adjoint() * goal).iter());
-        stacked.push(triangle.r());
+        let triangle = triangle(own + count, s, sample, |s, value, row| {
+            basis(poles, s, row);
+            row.extend(poles.iter().map(|pole| value / (s - pole)));
+            row.push(-value);
+        });
+        // below the rows that the own residues can take up
+        right.extend(triangle.view((own, own + count), (count, 1)).iter());
+        stacked.push(triangle.view((own, own), (count, count)).into_owned());
     }
     let rows = stacked.iter().map(|matrix| matrix.nrows()).sum();
     let mut system = DMatrix::zeros(rows, count);

@@ -150,7 +150,7 @@ mod tests {
             measured: vec![(0, 0), (1, 0), (0, 1), (1, 1)],
             relative_variance: None,
             repeats: None,
-            floors: std::sync::OnceLock::new(),
+            shown: crate::ShownNoise::default(),
             frequency_hz,
         }
     }

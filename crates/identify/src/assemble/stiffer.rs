@@ -196,7 +196,7 @@ impl Variances {
             let rotations = [p, q].map(|label| measured.is_rotation(label));
             let values = measured.function(p, q);
             let of = Of::Substructure(side);
-            let variances = variances(of, rotations, values, known((p, q)), &rough, noise);
+            let variances = variances(of, rotations, values, known((p, q)), rough, noise);
             ((p, q), variances)
         });
         Some(Self {
@@ -209,12 +209,12 @@ impl Variances {
 /// Those of each of the assembly's measured functions.
 fn of_assembly(lines: &Lines, noise: &Noise) -> Vec<Vec<f64>> {
     let functions = lines.measured.iter().zip(lines.roughness());
-    let of = |(index, (&(p, q), rough)): (usize, (&(usize, usize), Roughness))| {
+    let of = |(index, (&(p, q), rough)): (usize, (&(usize, usize), &Roughness))| {
         let values: Vec<Complex64> = lines.assembly.iter().map(|line| line[(p, q)]).collect();
         let rotations = [p, q].map(|point| lines.points[point].direction().is_rotation());
         let known = lines.relative_variance.as_ref();
         let known = known.and_then(|known| known.get(index).map(Vec::as_slice));
-        variances(Of::Assembly, rotations, &values, known, &rough, noise)
+        variances(Of::Assembly, rotations, &values, known, rough, noise)
     };
     functions.enumerate().map(of).collect()
 }

@@ -1,7 +1,7 @@
 //! Receptances of a substructure between the joint's degrees of freedom and its points: read, synthesised or computed.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -10,6 +10,7 @@ use super::super::error::IdentifyError;
 use super::super::from_modes::FromModes;
 use super::super::lines::{Lines, independent};
 use super::super::receptances::{MeasuredSubstructure, Receptances, with_lost};
+use super::super::roughness::ShownNoise;
 use super::super::study::{MeasuredJoint, Rotation, Source, Study, Substructure};
 use super::axis::Axis;
 use super::both_sides::as_one;
@@ -52,7 +53,7 @@ pub(super) fn substructures(
         measured: Vec::new(),
         relative_variance: None,
         repeats: None,
-        floors: OnceLock::new(),
+        shown: ShownNoise::default(),
     })
 }
 

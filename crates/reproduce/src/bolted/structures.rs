@@ -131,7 +131,7 @@ pub(super) fn lines(
             .collect(),
         relative_variance: None,
         repeats: None,
-        floors: Default::default(),
+        shown: Default::default(),
     };
     lines.assembly = lines.regenerated(joint)?;
     Ok(lines)

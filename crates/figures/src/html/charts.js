@@ -123,6 +123,20 @@
     return found;
   };
 
+  // The longest of texts, and the longest that a curve's values have in the key: that of the smallest or of the largest.
+  const longest = (texts) => texts.reduce((best, text) => (text.length > best.length ? text : best), "");
+  const widest = (values) => {
+    let [least, most, sign] = [Infinity, 0, 1];
+    for (const value of values) {
+      if (value < 0) sign = -1;
+      const size = Math.abs(value);
+      if (!(size > 0 && size < Infinity)) continue;
+      least = Math.min(least, size);
+      most = Math.max(most, size);
+    }
+    return longest([least, most].map((size) => shown(sign * size)));
+  };
+
   const save = (name, blob) => {
     const link = html("a", { href: URL.createObjectURL(blob), download: name });
     link.click();
@@ -190,9 +204,11 @@
       this.legend();
       this.listen();
       this.draw();
-      new ResizeObserver(() => {
-        if (Math.abs(this.room() - this.width) > 1) this.draw();
-      }).observe(this.picture);
+      const fit = () => {
+        if (Math.abs(this.room() - this.width) > 1 || this.figure.clientWidth !== this.reserved) this.draw();
+      };
+      // Later, as drawing changes the height of what is observed.
+      new ResizeObserver(() => requestAnimationFrame(fit)).observe(this.picture);
     }
 
     entry(name, look) {
@@ -205,7 +221,7 @@
     // One row for each name and look, with the values at the cursor.
     legend() {
       const most = Math.max(...this.groups.map((group) => group.panels.length));
-      const table = html("table", { className: "keys" });
+      const table = (this.keys = html("table", { className: "keys" }));
       const head = html("tr", {}, html("thead", {}, table));
       this.heads = Array.from({ length: most + 1 }, () => html("th", { scope: "col" }, head));
       this.heads[0].className = "at";
@@ -226,6 +242,42 @@
       this.picture.before(table);
     }
 
+    // What the key shows at most: a text for each column of its head, and one for each cell.
+    widest() {
+      if (this.most) return this.most;
+      const cells = new Map();
+      const add = (cell, text) => cells.set(cell, longest([cells.get(cell) ?? "", text]));
+      for (const { panels } of this.groups) {
+        panels.forEach((panel, place) => {
+          const title = panel.title && this.groups.length > 1 ? `${panel.title}: ` : "";
+          add(this.heads[place + 1], title + panel.up.name);
+          if (panel.level) add(panel.level.entry.cells[place], shown(panel.level.value));
+          for (const { x, y, low, high, entry } of panel.curves) {
+            add(this.heads[0], longest(Array.from(x, (value) => named(panels[0].across.name, value))));
+            // An interval may stand below its value, a number is in one piece.
+            entry.cells[place].classList.toggle("interval", low !== undefined);
+            add(entry.cells[place], widest(y) + (low ? ` (${widest(low)} … ${widest(high)})` : ""));
+          }
+        });
+      }
+      return (this.most = [...cells]);
+    }
+
+    // Keeps the room of the widest readings, as the picture is not to move below a finger when they come and go.
+    reserve() {
+      if (this.figure.clientWidth === this.reserved) return;
+      this.reserved = this.figure.clientWidth;
+      this.keys.classList.remove("reserved");
+      for (const [cell, text] of this.widest()) cell.textContent = text;
+      const sizes = [this.keys, ...this.heads, ...this.keys.rows].map((each) => [each, each.getBoundingClientRect()]);
+      for (const [each, { width, height }] of sizes) {
+        // Other digits in the same number of places may be a little wider.
+        each.style.setProperty("--across", `${Math.ceil(width) + 2}px`);
+        each.style.setProperty("--down", `${height}px`);
+      }
+      this.keys.classList.add("reserved");
+    }
+
     sample(look) {
       const svg = element("svg", { class: "key", viewBox: "0 0 22 12", width: 22, height: 12, "aria-hidden": "true" });
       this.stroke(svg, look.dots ? "M4 6h0M11 6h0M18 6h0" : "M1 6h20", look);
@@ -243,14 +295,20 @@
 
     listen() {
       const pointers = new Map();
-      let start = null, pinch = null;
+      let start = null, pinch = null, held = null;
+      const onPage = () => {
+        const { left, top, width, height } = this.overlay.getBoundingClientRect();
+        return { left: left + scrollX, top: top + scrollY, width, height };
+      };
+      // During a drag the picture is where it was at first: only what the pointer moves counts.
       const place = (event) => {
-        const box = this.overlay.getBoundingClientRect();
-        return { x: ((event.clientX - box.left) / box.width) * this.width, y: ((event.clientY - box.top) / box.height) * this.height };
+        const box = held ?? onPage();
+        return { x: ((event.pageX - box.left) / box.width) * this.width, y: ((event.pageY - box.top) / box.height) * this.height };
       };
       const dragged = (x) => start && !pinch && Math.max(Math.abs(x.x - start.x), Math.abs(x.y - start.y)) > CLICK;
       this.picture.addEventListener("pointerdown", (event) => {
         if (event.button !== 0) return;
+        if (pointers.size === 0) held = onPage();
         pointers.set(event.pointerId, place(event));
         if (pointers.size === 2) {
           const panel = this.panelAt([...pointers.values()][0]);
@@ -277,7 +335,7 @@
           else if (start && !pinch) this.pointAt(at);
         } else this.pointAt(null);
         pointers.delete(event.pointerId);
-        if (pointers.size === 0) start = pinch = null;
+        if (pointers.size === 0) start = pinch = held = null;
       };
       this.picture.addEventListener("pointerup", end);
       this.picture.addEventListener("pointercancel", end);
@@ -602,8 +660,10 @@
       this.height = Number(svg.getAttribute("viewBox").split(" ")[3]);
       const overlay = { viewBox: `0 0 ${width} ${this.height}`, class: "overlay", "aria-hidden": "true" };
       this.overlay = element("svg", overlay);
-      this.picture.style.maxWidth = `${width}px`;
+      // The picture itself stays as wide as the page lets it be: its width says what room there is.
+      for (const layer of [svg, this.overlay]) layer.style.setProperty("--drawn", `${width}px`);
       this.picture.replaceChildren(svg, this.overlay);
+      this.reserve();
       const written = (range) => (range ? range.map((value) => value.toPrecision(6)).join(" ") : "");
       this.figure.dataset.range = this.groups.map((group) => written(group.range)).find(Boolean) ?? "";
       this.figure.dataset.up = this.data.panels.map((panel) => written(panel.range)).find(Boolean) ?? "";
@@ -812,6 +872,15 @@
   }
   addEventListener("beforeprint", () => charts.forEach((chart) => chart.draw(SAVED_WIDTH)));
   addEventListener("afterprint", () => charts.forEach((chart) => chart.draw()));
+  // A table that is wider than the page fades at the sides where there is more of it.
+  for (const box of document.querySelectorAll(".scroll, .equation")) {
+    const fade = () => {
+      box.classList.toggle("before", box.scrollLeft > 1);
+      box.classList.toggle("after", box.scrollLeft + box.clientWidth < box.scrollWidth - 1);
+    };
+    box.addEventListener("scroll", fade, { passive: true });
+    new ResizeObserver(fade).observe(box);
+  }
   const frequencies = charts.filter((chart) => chart.data.panels.some((panel) => panel.across.name === "frequency, Hz"));
   if (frequencies.length > 1) {
     const label = html("label", { className: "together" });

@@ -1,6 +1,7 @@
 //! Pieces of HTML that every page of this program is made of: escaped text, numbers, tables, one look.
 
 mod page;
+mod paper;
 
 pub use page::{figure, page, still};
 
@@ -136,6 +137,14 @@ fn written(value: f64, digits: usize, without_zeros: bool) -> String {
     }
 }
 
+/// How far the criterion of a model is above the best one's: small differences decide, of large ones the size is enough.
+pub fn above_the_best(difference: f64) -> String {
+    match difference.abs() {
+        0.0..100.0 => format!("{difference:.1}"),
+        _ => shown(difference, 3),
+    }
+}
+
 /// A fraction in per cent: three digits say enough of a residual.
 pub fn percent(fraction: f64) -> String {
     format!("{} %", shown(100.0 * fraction, 3))
@@ -152,9 +161,10 @@ pub fn table(headings: &[&str], rows: &[String]) -> String {
         .iter()
         .map(|heading| format!("<th>{heading}</th>"))
         .collect();
+    let style = paper::style(&headings, rows);
     let rows: String = rows.iter().map(|row| format!("<tr>{row}</tr>\n")).collect();
     format!(
-        "<div class=\"scroll\"><table>\n<thead><tr>{headings}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
+        "<div class=\"scroll\"><table{style}>\n<thead><tr>{headings}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
     )
 }
 
@@ -165,8 +175,16 @@ pub fn columns(headings: &str) -> Vec<&str> {
 
 /// A cell of finished HTML.
 pub fn cell(html: &str) -> String {
-    format!("<td>{html}</td>")
+    // A path may break where a word may not.
+    let is_long = |word: &str| word.chars().count() > LONGEST_WORD;
+    match html.split([' ', '\n', '<', '>']).any(is_long) {
+        true => format!("<td class=\"long\">{html}</td>"),
+        false => format!("<td>{html}</td>"),
+    }
 }
+
+/// A word of more letters is a path or a sum.
+const LONGEST_WORD: usize = 24;
 
 /// A cell whose content is aligned as numbers are.
 pub fn number_cell(html: &str) -> String {
@@ -251,6 +269,28 @@ mod tests {
             assert_eq!(number(value), expected);
         }
         assert_eq!(shown(-1e-3, 3), "−0.001");
+    }
+
+    #[test]
+    fn large_criteria_are_short() {
+        for (difference, expected) in [
+            (0.0, "0.0"),
+            (9.96, "10.0"),
+            (1234.5, "1234"),
+            (1_545_443_991.8, "1.55 × 10<sup>9</sup>"),
+        ] {
+            assert_eq!(above_the_best(difference), expected);
+        }
+    }
+
+    #[test]
+    fn paths_may_break_and_words_may_not() {
+        let path = "measurements/of-the-whole-lap-joint.uff";
+        assert_eq!(cell(path), format!("<td class=\"long\">{path}</td>"));
+        assert_eq!(
+            cell("relative displacement"),
+            "<td>relative displacement</td>"
+        );
     }
 
     #[test]

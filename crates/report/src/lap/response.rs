@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{
-    self, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
+    self, above_the_best, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
 };
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
@@ -75,13 +75,13 @@ impl LapResponseReport<'_> {
                 None => String::new(),
             };
             format!(
-                "<th scope=\"row\">{}</th>{values}{}{free}",
+                "<th scope=\"row\">{}</th>{}{values}{free}",
                 escaped(estimate.unknown.symbol()),
                 cell(&estimate.unknown.unit())
             )
         });
         let rows: Vec<String> = rows.collect();
-        let mut header = vec!["", "Estimate (std. dev.)", "95 % interval", "Unit"];
+        let mut header = vec!["", "Unit", "Estimate (std. dev.)", "95 % interval"];
         let free = self.found.free.as_ref().map_or_else(String::new, |free| {
             header.push("Free estimate");
             format!(
@@ -222,7 +222,7 @@ impl LapResponseReport<'_> {
                 cell(&escaped(&model.terms.to_string())),
                 number_cell(&model.unknowns.to_string()),
                 number_cell(&shown(model.reduced_chi_squared, 4)),
-                number_cell(&format!("{:.1}", model.bic_difference)),
+                number_cell(&above_the_best(model.bic_difference)),
                 number_cell(&match model.is_passive {
                     true => String::new(),
                     false => format!("{:.1}", model.price),

@@ -3,7 +3,7 @@
 use super::parameters::place;
 use super::{IdentificationReport, counted, over_torque};
 use bolted_joint_figures::html::{
-    capitalised, cell, escaped, number_cell, percent, quantity, shown, table,
+    above_the_best, capitalised, cell, escaped, number_cell, percent, quantity, shown, table,
 };
 use bolted_joint_identify::{JointEstimate, JointMatrices};
 use bolted_joint_joint::JointFile;
@@ -136,7 +136,7 @@ fn fit(report: &IdentificationReport<'_>) -> String {
 }
 
 fn row(name: &str, html: &str) -> String {
-    format!("<th scope=\"row\">{name}</th><td>{html}</td>")
+    format!("<th scope=\"row\">{name}</th>{}", cell(html))
 }
 
 fn bare_table(rows: &[String]) -> String {
@@ -173,7 +173,7 @@ impl Compared<'_> {
         [
             cell(self.name),
             number_cell(&self.unknowns.to_string()),
-            number_cell(&format!("{:.1}", self.bic_difference)),
+            number_cell(&above_the_best(self.bic_difference)),
             number_cell(chi_squared.as_deref().unwrap_or("–")),
             cell(leaves),
             cell(&remarks.collect::<Vec<_>>().join(", ")),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{Assembly, IdentificationReport, beside, counted, files};
-use bolted_joint_figures::html::{escaped, number, percent, shown, table};
+use bolted_joint_figures::html::{cell, escaped, number, percent, shown, table};
 use bolted_joint_frf::Dof;
 use bolted_joint_frf::structure::{Beam, Boundary, Damping, Theory};
 use bolted_joint_identify::{
@@ -81,7 +81,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
 }
 
 fn row(name: &str, html: &str) -> String {
-    format!("<th scope=\"row\">{name}</th><td>{html}</td>")
+    format!("<th scope=\"row\">{name}</th>{}", cell(html))
 }
 
 fn file_name(path: &Path) -> String {

@@ -17,7 +17,7 @@ mod sensitivity;
 use bolted_joint_figures::html;
 use bolted_joint_files::Timestamp;
 use bolted_joint_identify::{Identification, Study};
-use bolted_joint_joint::JointFile;
+use bolted_joint_joint::{JointFile, with_symbols};
 
 /// The report of an identification.
 #[derive(Debug, Clone, Copy)]
@@ -112,6 +112,18 @@ impl Assembly<'_> {
         let (drive, others): (Vec<usize>, Vec<usize>) =
             (0..self.fits.len()).partition(is_drive_point);
         drive.into_iter().chain(others).collect()
+    }
+}
+
+/// A parameter's name with its index set low: `k_yy` becomes k with index yy.
+pub(crate) fn symbol(name: &str) -> String {
+    match name.split_once('_') {
+        Some((letter, index)) => format!(
+            "<i>{}</i><sub>{}</sub>",
+            html::escaped(letter),
+            html::escaped(&with_symbols(index))
+        ),
+        None => html::escaped(name),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{IdentificationReport, counted, over_torque};
+use super::{IdentificationReport, counted, over_torque, symbol};
 use bolted_joint_figures::html::{
     beside, cell, escaped, number_cell, quantity, shown, spread, table, with_deviation,
 };
@@ -48,9 +48,10 @@ fn only_joint(report: &IdentificationReport<'_>, joint: &JointEstimate) -> Strin
 }
 
 /// What [`cells`] are.
-pub(super) const HEADINGS: [&str; 4] = ["Estimate", "95 % interval", "Band average", "Unit"];
+pub(super) const HEADINGS: [&str; 4] = ["Unit", "Estimate", "95 % interval", "Band average"];
 
-/// One unknown of a joint: estimate with its standard deviation, interval, band average, unit.
+/// One unknown of a joint: unit, estimate with its standard deviation, interval, band average. The unit comes first, where a
+/// telephone shows it, too.
 pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> String {
     let covariance = &joint.covariance;
     let deviation = covariance.standard_deviation()[index];
@@ -70,7 +71,7 @@ pub(super) fn cells(joint: &JointEstimate, index: usize, unknown: &Unknown) -> S
     } else {
         "<td class=\"open\" colspan=\"2\">not identified</td>".to_owned()
     };
-    format!("{estimate}{}{}", number_cell(&average), cell(unknown.unit))
+    format!("{}{estimate}{}", cell(unknown.unit), number_cell(&average))
 }
 
 /// The torque of a joint, after what is said of it; nothing where it is common to all.
@@ -104,18 +105,6 @@ impl IdentificationReport<'_> {
     pub(super) fn label(&self, unknown: &Unknown) -> String {
         let label = unknown.label(self.found.bolts.with_own_joint());
         with_symbols(&label)
-    }
-}
-
-/// A parameter's name with its index set low: `k_yy` becomes k with index yy.
-fn symbol(name: &str) -> String {
-    match name.split_once('_') {
-        Some((letter, index)) => format!(
-            "<i>{}</i><sub>{}</sub>",
-            escaped(letter),
-            escaped(&with_symbols(index))
-        ),
-        None => escaped(name),
     }
 }
 

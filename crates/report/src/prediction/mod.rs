@@ -10,7 +10,6 @@ use super::lap::warnings;
 use super::page::page;
 use bolted_joint_export::provenance;
 use bolted_joint_files::Timestamp;
-use bolted_joint_joint::with_symbols;
 use bolted_joint_predict::study::Prediction;
 
 /// The report of a prediction.
@@ -49,15 +48,5 @@ impl PredictionReport<'_> {
             self.written,
             &sections,
         )
-    }
-}
-
-/// A name with its index set low: `k_yy` becomes k with index yy.
-fn symbol(name: &str) -> String {
-    match name.split_once('_') {
-        Some((letter, index)) => {
-            format!("<i>{letter}</i><sub>{}</sub>", with_symbols(index))
-        }
-        None => name.to_owned(),
     }
 }

@@ -1,7 +1,7 @@
 //! The joint's numbers with their intervals, over the torque where there is a table, and where the scatter comes from.
 
 use super::super::interval_figure::{Estimated, IntervalFigure, Panel};
-use super::symbol;
+use crate::page::symbol;
 use bolted_joint_figures::html::figure;
 use bolted_joint_figures::html::{
     beside, cell, escaped, number, number_cell, table, with_deviation,
@@ -79,18 +79,18 @@ fn at_state(found: &Prediction<'_>, state: &State) -> String {
                     number_cell(&number(unknown.value)) + &number_cell("–").repeat(unknown_to)
                 }
             };
-            format!("{head}{cells}{}", cell(&unknown.unit))
+            format!("{head}{}{cells}", cell(&unknown.unit))
         })
         .collect();
     let headings: &[&str] = match found.outcome {
         Some(_) => &[
             "",
+            "Unit",
             "At the values given",
             "Mean (std. dev.)",
             "95 % interval",
-            "Unit",
         ],
-        None => &["", "Value", "Unit"],
+        None => &["", "Unit", "Value"],
     };
     table(headings, &rows)
 }

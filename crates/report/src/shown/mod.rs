@@ -3,7 +3,7 @@
 
 mod functions;
 
-use bolted_joint_figures::html::{escaped, figure};
+use bolted_joint_figures::html::{cell, escaped, figure};
 use bolted_joint_figures::{LineFigure, ResponseCurve, ResponseFigure, ResponsePanel};
 use bolted_joint_files::Timestamp;
 
@@ -46,9 +46,9 @@ pub fn shown_page(title: &str, files: &[ShownFile<'_>], written: Timestamp) -> S
         let rows = facts.iter().map(|(label, text)| {
             let lines: Vec<String> = text.lines().map(escaped).collect();
             format!(
-                "<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
+                "<tr><th scope=\"row\">{}</th>{}</tr>\n",
                 escaped(label),
-                lines.join("<br>")
+                cell(&lines.join("<br>"))
             )
         });
         let rows: String = rows.collect();

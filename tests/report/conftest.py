@@ -174,6 +174,17 @@ const saved = async (figure, name) => {
   [URL.createObjectURL, HTMLAnchorElement.prototype.click] = [made, click];
   return file;
 };
+// Waits for what the browser does when it next draws. That takes real time, which its own clock leaves out unless something loads.
+const until = async (is) => {
+  for (let tries = 0; tries < 300 && !is(); tries += 1) {
+    await new Promise((done) => {
+      const load = new XMLHttpRequest();
+      load.onloadend = () => setTimeout(done, 5);
+      load.open("GET", location.href);
+      load.send();
+    });
+  }
+};
 const luminance = (colour) => {
   const parts = colour.match(/[\\d.]+/g).slice(0, 3).map((part) => part / 255)
     .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));

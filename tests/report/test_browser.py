@@ -4,9 +4,11 @@ import base64
 import cmath
 import csv
 import io
+import json
 import math
 import re
 import struct
+import subprocess
 
 import pytest
 
@@ -130,6 +132,111 @@ def test_every_figure_answers_a_tap_and_zooms_both_ways(drive, pages, name):
         page=pages[name],
     )
     assert count >= 1 and silent == []
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_readings_do_not_move_the_picture(drive, pages, name):
+    """On a telephone: a finger that taps a figure and then goes exactly along it zooms along, and nothing moves below it."""
+    wrong = drive(
+        "const wrong = [];"
+        "for (const figure of figures) {"
+        "  const picture = figure.querySelector('.picture');"
+        "  const top = () => picture.getBoundingClientRect().top - figure.getBoundingClientRect().top;"
+        "  const box = picture.getBoundingClientRect(), before = top(), moved = [];"
+        "  const finger = (kind, share) => {"
+        "    const at = { clientX: box.left + share * box.width, clientY: box.top + 80 };"
+        "    picture.dispatchEvent(new PointerEvent(kind, { ...at, bubbles: true, button: 0, pointerId: 1, pointerType: 'touch' }));"
+        "    moved.push(top() - before); };"
+        "  finger('pointerdown', 0.5); finger('pointerup', 0.5); const read = isRead(figure);"
+        "  finger('pointerdown', 0.4); finger('pointermove', 0.5); finger('pointermove', 0.6); finger('pointerup', 0.7);"
+        "  const { range, up } = figure.dataset; button(figure, 'whole range').click();"
+        "  if (!read || !range || up || moved.some((by) => Math.abs(by) > 0.1)) wrong.push([figure.id, read, range, up, moved]);"
+        "}"
+        "return wrong;",
+        page=pages[name],
+        width=390,
+    )
+    assert wrong == []
+
+
+def test_what_moves_the_page_during_a_drag_is_no_drag(drive):
+    """A text above the figure that goes away while the pointer is down."""
+    range_, up = drive(
+        "const picture = first.querySelector('.picture'), box = picture.getBoundingClientRect();"
+        "const text = document.createElement('p'); text.style.height = '40px'; first.before(text);"
+        "const y = picture.getBoundingClientRect().top + 100;"
+        "const go = (kind, share) => picture.dispatchEvent(new PointerEvent(kind, {"
+        "  clientX: box.left + share * box.width, clientY: y, bubbles: true, button: 0, pointerId: 1 }));"
+        "go('pointerdown', 0.4); text.remove(); go('pointermove', 0.5); go('pointerup', 0.6);"
+        "return [first.dataset.range, first.dataset.up];"
+    )
+    assert range_ and not up
+
+
+@pytest.mark.parametrize("widths", [[390, 844, 390], [1200, 400, 1200]])
+def test_figures_follow_the_width_of_the_page(drive, widths):
+    """A telephone that is turned, and a window that grows again."""
+    found = drive(
+        "const found = [];"
+        f"for (const width of {widths}) {{"
+        "  frameElement.style.width = `${width}px`;"
+        "  await until(() => Math.abs(drawing(first).viewBox.baseVal.width - first.clientWidth) < 60);"
+        "  const [across, column] = [drawing(first), first].map((each) => each.getBoundingClientRect().width);"
+        "  const text = drawing(first).querySelector('text').getBoundingClientRect().height;"
+        "  found.push([across, column, drawing(first).viewBox.baseVal.width, text]);"
+        "}"
+        "return found;",
+        width=widths[0],
+    )
+    for across, column, drawn, _ in found:
+        assert across == pytest.approx(min(column, 1000), abs=1.5) and drawn == pytest.approx(across, abs=1.5)
+    assert found[0] == found[2]
+
+
+@pytest.fixture(scope="session")
+def compared(program, demo, tmp_path_factory):
+    """The page of joints beside each other: the second stiffer, and the first with a damping that may be zero."""
+    folder = tmp_path_factory.mktemp("compared")
+    joint = json.loads((demo / "m10x16.joint.json").read_text(encoding="utf-8"))
+    del joint["uncertainty"]["interval_95"]
+    (folder / "second.joint.json").write_text(json.dumps(joint), encoding="utf-8")
+    joint["joint"]["stiffness"] = [[value / 1.465 for value in row] for row in joint["joint"]["stiffness"]]
+    joint["joint"]["damping"][0][1] = joint["joint"]["damping"][1][0] = 2e-4
+    (folder / "first.joint.json").write_text(json.dumps(joint), encoding="utf-8")
+    files = [folder / "first.joint.json", folder / "second.joint.json"]
+    subprocess.run([program, "compare", *files, "--plot", folder / "compare.html"], check=True, capture_output=True, timeout=60)
+    return folder / "compare.html"
+
+
+def test_joints_beside_each_other_are_told_as_elsewhere(compared):
+    text = compared.read_text(encoding="utf-8").replace("\u00a0", " ")
+    assert "<i>k</i><sub>yy</sub> <small>N/m</small></th>" in text
+    assert ">572880(270)</td>" in text and ">0.0002(44)</td>" in text
+    assert ">+46.5 % (+" in text
+    # A damping that may be zero has no part.
+    assert ">– (−133 σ)</td>" in text and "cannot be told from zero" in text
+    assert "a probability of less than 10<sup>−10</sup>" in text
+
+
+def test_a_telephone_shows_what_decides_and_that_there_is_more(drive, compared, pages):
+    """390 pixels wide: the difference and the unit are in sight, and a table that goes on fades at its end."""
+    script = (
+        "const ends = (text) => [...document.querySelectorAll('main th')].filter((cell) => cell.textContent === text)"
+        "  .map((cell) => cell.getBoundingClientRect().right);"
+        "const boxes = [...document.querySelectorAll('.scroll')].map((box) =>"
+        "  [box.scrollWidth > box.clientWidth + 1, getComputedStyle(box).maskImage !== 'none']);"
+        "const wide = [...document.querySelectorAll('.scroll')].find((box) => box.scrollWidth > box.clientWidth + 1);"
+        "const sides = []; if (wide) for (const left of [0, 1e5]) {"
+        "  wide.scrollLeft = left; const seen = () => ['before', 'after'].map((side) => wide.classList.contains(side));"
+        "  await until(() => seen()[0] === left > 0); sides.push(seen()); }"
+        "return [ends('2 against 1'), ends('Unit'), boxes, sides];"
+    )
+    difference, _, _, _ = drive(script, page=compared, width=390)
+    assert difference and max(difference) <= 390
+    _, units, boxes, sides = drive(script, width=390)
+    assert units and units[0] <= 390
+    assert any(scrolls for scrolls, _ in boxes) and all(scrolls == fades for scrolls, fades in boxes)
+    assert sides == [[False, True], [True, False]]
 
 
 def test_a_box_zooms_both_axes_to_its_corners(drive):
@@ -326,6 +433,39 @@ def test_paper_clips_no_table(drive, pages, name):
         media="print",
     )
     assert clipped == []
+
+
+# Texts that are on more lines than they have words: a word or a number that is broken.
+BROKEN = """
+const broken = [];
+for (const cell of document.querySelectorAll('main table:not(.keys) :is(th, td):not(.hash, .long)')) {
+  const texts = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+  while (texts.nextNode()) {
+    const node = texts.currentNode;
+    for (const { 0: word, index } of node.data.matchAll(/[^\\s\u2010-\u2015…/-]+/g)) {
+      const range = document.createRange(); range.setStart(node, index); range.setEnd(node, index + word.length);
+      if (new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1) broken.push(word);
+    }
+  }
+}
+return broken;
+"""
+
+
+@pytest.mark.parametrize("name", [*PAGES, "compare", "show"])
+def test_paper_breaks_no_word_and_no_number(drive, pages, compared, shown, name):
+    others = {"compare": compared, "show": shown}
+    room = (210 - 28) / 25.4 * 96
+    assert drive(BROKEN, page=others.get(name) or pages[name], width=int(room), media="print") == []
+
+
+@pytest.fixture(scope="session")
+def shown(program, demo, tmp_path_factory):
+    """The page of what is in files: measured functions, and a joint."""
+    page = tmp_path_factory.mktemp("shown") / "show.html"
+    files = [demo / "assembly.uff", demo / "m10x16.joint.json"]
+    subprocess.run([program, "show", *files, "--plot", page], check=True, capture_output=True, timeout=60)
+    return page
 
 
 def test_it_prints(browser, page, tmp_path):

@@ -10,7 +10,7 @@ mod numbers;
 mod together;
 
 pub use error::CompareError;
-pub use numbers::{Difference, Measured, Row};
+pub use numbers::{Difference, HALF, Measured, Row};
 pub use together::Together;
 
 use bolted_joint_joint::{DofSet, JointFile};
@@ -129,6 +129,19 @@ mod tests {
         );
         assert_eq!(together.unknowns, 2);
         assert!(together.probability < 1e-10);
+    }
+
+    #[test]
+    fn nothing_is_a_part_of_a_value_that_may_be_zero() {
+        let of = |k: f64| {
+            let joints = [joint(k, 300.0, ""), joint(1e5, 300.0, "")];
+            let found = Comparison::of(&joints.map(|own| ("j".to_owned(), own))).unwrap();
+            found.rows[0].differences[0].unwrap()
+        };
+        // 1.96·300 = 588
+        assert_eq!(of(587.0).relative, None);
+        assert!(of(587.0).deviations.unwrap() > 200.0);
+        assert!(of(589.0).relative.unwrap() > 100.0);
     }
 
     #[test]

@@ -3,6 +3,9 @@
 use bolted_joint_dynamics::law::{DAMPING, Parameter, STIFFNESS, Term};
 use bolted_joint_joint::{Friction, JointFile, LawError, unit};
 
+/// Half an interval of 95 % in standard deviations.
+pub const HALF: f64 = 1.959_963_984_540_054;
+
 /// One number of all joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
@@ -25,10 +28,18 @@ pub struct Measured {
     pub deviation: Option<f64>,
 }
 
+impl Measured {
+    /// Whether zero is outside of the interval of 95 %: parts of a value that may as well be zero say nothing.
+    #[must_use]
+    pub fn is_told_from_zero(&self) -> bool {
+        self.value.abs() > HALF * self.deviation.unwrap_or(0.0)
+    }
+}
+
 /// How far a value is from the first one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Part of the first value; `None` where that is zero.
+    /// Part of the first value; `None` where that is not told from zero.
     pub relative: Option<f64>,
     /// Standard deviations of the difference, √(σ₁² + σ₂²); `None` unless both files have one.
     pub deviations: Option<f64>,
@@ -53,7 +64,7 @@ impl Row {
                 .zip(own.deviation)
                 .map(|(one, other)| one.hypot(other));
             (first != *own || first.value != 0.0).then(|| Difference {
-                relative: (first.value != 0.0).then(|| by / first.value.abs()),
+                relative: first.is_told_from_zero().then(|| by / first.value.abs()),
                 deviations: sum.map(|sum| by / sum),
             })
         };

@@ -1,17 +1,18 @@
 //! Joints beside each other: each number with its interval of 95 %, a column for each joint.
 
-use bolted_joint_compare::{Comparison, Measured, Row};
+use bolted_joint_compare::{Comparison, Difference, HALF, Measured, Row, Together};
 use bolted_joint_figures::html::{
-    beside, cell, escaped, figure, number, number_cell, percent, spread, table,
+    escaped, figure, number, number_cell, percent, shown, table, with_deviation,
 };
 use bolted_joint_figures::{COLOURS, Drawn};
 use bolted_joint_files::Timestamp;
 use bolted_joint_joint::with_symbols;
 
 use crate::interval_figure::{Estimated, IntervalFigure, Panel};
+use crate::page::symbol;
 
-/// Half an interval of 95 % in standard deviations.
-const HALF: f64 = 1.959_963_984_540_054;
+/// Below this a probability is as good as none; what it is rests on tails of distributions that nobody has seen.
+const UNLIKELY: f64 = 1e-10;
 
 /// The numbers with their intervals as an SVG document, a panel each; joints are numbered from 1.
 #[must_use]
@@ -57,10 +58,11 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
     let items: String = names
         .map(|(place, name)| format!("<li value=\"{}\">{}</li>\n", place + 1, escaped(name)))
         .collect();
-    let headings: Vec<String> = ["".to_owned(), "Unit".to_owned()]
+    // Each difference stands beside its joint: that of the second one is in sight on a telephone, too.
+    let others = 2..=comparison.names.len();
+    let headings: Vec<String> = [String::new(), "Joint 1".to_owned()]
         .into_iter()
-        .chain((1..=comparison.names.len()).map(|place| format!("Joint {place}")))
-        .chain((2..=comparison.names.len()).map(|place| format!("{place} against 1")))
+        .chain(others.flat_map(|place| [format!("Joint {place}"), format!("{place} against 1")]))
         .collect();
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let rows: Vec<String> = comparison.rows.iter().map(table_row).collect();
@@ -68,17 +70,7 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
         .together
         .iter()
         .enumerate()
-        .filter_map(|(place, own)| {
-            let own = (*own)?;
-            Some(format!(
-                "<p>Joint {} against joint 1, all {} unknowns together: <i>χ</i>² = {}, which joints that are the same exceed \
-                 with a probability of {}.</p>\n",
-                place + 2,
-                own.unknowns,
-                number(own.chi_squared),
-                number(format!("{:.2e}", own.probability).parse().unwrap_or(own.probability)),
-            ))
-        })
+        .filter_map(|(place, own)| own.map(|own| all_together(place + 2, own)))
         .collect();
     let notes: String = comparison
         .notes
@@ -87,9 +79,11 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
         .collect();
     let sections = format!(
         "<h2>Joints</h2>\n<ol>\n{items}</ol>\n<h2>Numbers</h2>\n{}\
-         <p>± one standard deviation. Differences are parts of the first value and, in brackets, standard deviations of the \
-         difference of independent estimates.</p>\n{together}{notes}<h2>Intervals</h2>\n{}",
+         <p>In brackets behind a value: one standard deviation, in units of the last digit. Differences are parts of the first \
+         value; in brackets they are in standard deviations σ of the difference of independent estimates.{}</p>\n\
+         {together}{notes}<h2>Intervals</h2>\n{}",
         table(&headings, &rows),
+        unknown_parts(comparison),
         figure(
             "intervals",
             "Values with intervals of 95 %, where the files give deviations.",
@@ -105,29 +99,103 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
 }
 
 fn table_row(row: &Row) -> String {
-    let value = |own: &Measured| match own.deviation {
-        Some(deviation) => format!("{} ± {}", beside(own.value, deviation), spread(deviation)),
-        None => number(own.value),
+    let unit = match row.unit.as_str() {
+        "1" => String::new(),
+        unit => format!(" <small>{}</small>", escaped(unit)),
     };
-    let values = row.values.iter().map(|own| number_cell(&value(own)));
-    let differences = row.differences.iter().map(|own| {
-        let text = own.map_or_else(String::new, |own| {
-            let relative = own.relative.map_or_else(|| "—".to_owned(), percent);
-            let deviations = own
-                .deviations
-                .map_or_else(String::new, |own| format!(" ({own:+.1})"));
-            format!("{relative}{}", deviations.replace('-', "−"))
-        });
-        number_cell(&text)
+    let value = |own: &Measured| {
+        number_cell(&match own.deviation {
+            Some(deviation) => with_deviation(own.value, deviation),
+            None => number(own.value),
+        })
+    };
+    let mut html = format!("<th scope=\"row\">{}{unit}</th>", name(&row.name));
+    let (first, others) = row.values.split_at(1.min(row.values.len()));
+    html.extend(first.iter().map(value));
+    for (own, difference) in others.iter().zip(&row.differences) {
+        let text = difference.map_or_else(String::new, difference_of);
+        html += &format!("{}<td class=\"number parts\">{text}</td>", value(own));
+    }
+    html
+}
+
+/// A part of the first value, and standard deviations; a telephone may set them below each other.
+fn difference_of(difference: Difference) -> String {
+    let relative = difference.relative.map_or_else(
+        || "–".to_owned(),
+        |own| signed(own, &percent(own)).replace(' ', "\u{a0}"),
+    );
+    let deviations = difference.deviations.map_or_else(String::new, |own| {
+        let text = match own.abs() {
+            0.0..100.0 => format!("{own:.1}"),
+            _ => shown(own, 3),
+        };
+        let text = signed(own, &text.replace('-', "−"));
+        format!(" ({}\u{a0}σ)", text.replace(' ', "\u{a0}"))
     });
-    [
-        cell(&escaped(&with_symbols(&row.name))),
-        cell(&escaped(&row.unit)),
-    ]
-    .into_iter()
-    .chain(values)
-    .chain(differences)
-    .collect()
+    format!("{relative}{deviations}")
+}
+
+/// The text of a number with its sign; one that is shown as zero has none.
+fn signed(value: f64, text: &str) -> String {
+    let digits = text.split(" ×").next().unwrap_or_default();
+    match digits.contains(|c: char| ('1'..='9').contains(&c)) {
+        true if value > 0.0 => format!("+{text}"),
+        true => text.to_owned(),
+        false => text.trim_start_matches('−').to_owned(),
+    }
+}
+
+/// Why differences are no parts of some values.
+fn unknown_parts(comparison: &Comparison) -> &'static str {
+    let mut differences = comparison
+        .rows
+        .iter()
+        .flat_map(|row| &row.differences)
+        .flatten();
+    match differences.any(|own| own.relative.is_none()) {
+        true => {
+            " Where there is a dash, the first value cannot be told from zero by its own deviation, so that no part of it says anything."
+        }
+        false => "",
+    }
+}
+
+fn all_together(place: usize, own: Together) -> String {
+    let probability = match own.probability {
+        tiny if tiny < UNLIKELY => "less than 10<sup>−10</sup>".to_owned(),
+        known => shown(known, 2),
+    };
+    format!(
+        "<p>Joint {place} against joint 1, all {} unknowns together: <i>χ</i>² = {}, which joints that are the same exceed \
+         with a probability of {probability}.</p>\n",
+        own.unknowns,
+        shown(own.chi_squared, 4),
+    )
+}
+
+/// The name of a row as on the other pages: `k_yy` with its index set low, `jenkins.slip_force_y` in words.
+fn name(name: &str) -> String {
+    let (name, preload) = match name.split_once('@') {
+        Some((name, preload)) => (name, format!(" at {preload} N·m")),
+        None => (name, String::new()),
+    };
+    let name = match name.split_once('.') {
+        Some((law, parameter)) => {
+            let (key, dof) = parameter.rsplit_once('_').unwrap_or((parameter, ""));
+            let key = key.replace('_', " ");
+            escaped(&format!("{law}, {}: {key}", with_symbols(dof)))
+        }
+        // k3_y has its power before the underscore
+        None => match name.split_once('_') {
+            Some((letter, index)) if letter.len() > 1 => {
+                let (letter, power) = letter.split_at(1);
+                symbol(&format!("{letter}_{power},{index}"))
+            }
+            _ => symbol(name),
+        },
+    };
+    name + &escaped(&preload)
 }
 
 #[cfg(test)]
@@ -154,12 +222,58 @@ mod tests {
         // 1e4/√(2·300²) = 23.57
         for expected in [
             "new &lt;1&gt;",
-            "100000 ± 300",
-            "90000 ± 300",
-            "−10 % (−23.6)",
+            "<th scope=\"row\"><i>k</i><sub>yy</sub> <small>N/m</small></th>",
+            ">100000(300)</td>",
+            ">90000(300)</td>",
+            "−10\u{a0}% (−23.6\u{a0}σ)",
             ">joint, in the order given</text>",
         ] {
             assert!(page.contains(expected), "{expected}");
         }
+    }
+
+    #[test]
+    fn differences_have_their_sign() {
+        for (relative, deviations, expected) in [
+            (Some(0.465), Some(698.8), "+46.5 % (+699 σ)"),
+            (Some(-0.1), None, "−10 %"),
+            (Some(0.0), Some(-0.01), "0 % (0.0 σ)"),
+            (None, Some(-123_456_789.0), "– (−1.23 × 10<sup>8</sup> σ)"),
+        ] {
+            let own = Difference {
+                relative,
+                deviations,
+            };
+            assert_eq!(difference_of(own).replace('\u{a0}', " "), expected);
+        }
+    }
+
+    #[test]
+    fn names_are_those_of_the_other_pages() {
+        for (own, expected) in [
+            ("c_ytheta", "<i>c</i><sub>yθ</sub>"),
+            ("k3_y", "<i>k</i><sub>3,y</sub>"),
+            ("k_yy@10.5", "<i>k</i><sub>yy</sub> at 10.5 N·m"),
+            ("jenkins 2.slip_force_theta", "jenkins 2, θ: slip force"),
+        ] {
+            assert_eq!(name(own), expected);
+        }
+    }
+
+    #[test]
+    fn no_probability_is_zero() {
+        let told = |probability| {
+            all_together(
+                2,
+                Together {
+                    chi_squared: 34_915_100.0,
+                    unknowns: 6,
+                    probability,
+                },
+            )
+        };
+        assert!(told(0.0).contains("a probability of less than 10<sup>−10</sup>."));
+        assert!(told(0.0421).contains("= 3.492 × 10<sup>7</sup>, "));
+        assert!(told(0.0421).contains("a probability of 0.042."));
     }
 }

@@ -174,7 +174,7 @@ const saved = async (figure, name) => {
   [URL.createObjectURL, HTMLAnchorElement.prototype.click] = [made, click];
   return file;
 };
-// Waits for what the browser does when it next draws. That takes real time, which its own clock leaves out unless something loads.
+// Waits for what the browser does when it next draws. Loading gives it the real time that this takes: its own clock runs ahead.
 const until = async (is) => {
   for (let tries = 0; tries < 300 && !is(); tries += 1) {
     await new Promise((done) => {

@@ -74,3 +74,13 @@ pub(super) fn expect_joint_file(path: &Path) -> Result<(), CliError> {
     })
     .map(|_| ())
 }
+
+/// Draws that `identify` or `predict` has made.
+pub(super) fn expect_draws(path: &Path) -> Result<(), CliError> {
+    expect_kind(
+        path,
+        "a file of draws (JSON), as `identify --draws` writes it",
+        |kind| matches!(kind, FileKind::Draws | FileKind::OtherJson),
+    )
+    .map(|_| ())
+}

@@ -9,7 +9,7 @@ use bolted_joint::study::{Method, StudyText};
 use super::draws::read_parts;
 use super::error::CliError;
 use super::identify::{self, IdentifyArguments};
-use super::kind::expect_study;
+use super::kind::{expect_draws, expect_study};
 use super::predict::{self, PredictArguments};
 
 /// `merge`
@@ -47,6 +47,10 @@ pub(super) fn run(arguments: &MergeArguments) -> Result<(), CliError> {
         Method::VirtualMaterial,
     ];
     study.check_method(method, &methods)?;
+    arguments
+        .parts
+        .iter()
+        .try_for_each(|part| expect_draws(part))?;
     let parts = read_parts(&arguments.parts)?;
     parts.check_study(&study.record())?;
     if method == Method::FrfDecoupling {

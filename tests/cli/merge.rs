@@ -117,7 +117,11 @@ fn draws_that_do_not_belong_together_are_refused() {
     );
     bench.refused(
         &merge("d/study.toml"),
-        &["d/study.toml: ", "expected a file of draws"],
+        &[
+            "d/study.toml: found a study",
+            "expected a file of draws",
+            "`bolted-joint identify",
+        ],
     );
     parts(&bench, &format!("{bootstrap} --seed 2"), &["2..4"]);
     bench.refused(

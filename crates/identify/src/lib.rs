@@ -99,7 +99,7 @@ pub use model::{JointMatrices, JointModel};
 pub use noise::{Noise, NoiseLevel, StatedFloor, StatedLevel};
 pub use outliers::{Outlier, Outliers};
 pub use receptances::{MeasuredSubstructure, Receptances};
-pub use roughness::ShownNoise;
+pub use roughness::{ShownLevel, ShownNoise};
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use slips::{FoundSlip, Slip};
 pub use study::{

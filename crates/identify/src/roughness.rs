@@ -4,13 +4,14 @@
 //! So what it leaves is noise, and a value far off it is an outlier. No joint and no substructure takes part: errors of the
 //! set-up, and joint models that are too simple, are smooth.
 
+mod deviation;
 mod fit;
+mod shown_level;
 mod shown_noise;
 
 use num_complex::Complex64;
 
-use fit::{ComplexWindow, Fit, Window};
-
+pub use shown_level::ShownLevel;
 pub use shown_noise::ShownNoise;
 
 use super::noise::{Sample, Size, most_likely_level};
@@ -21,6 +22,25 @@ const WINDOW: usize = 9;
 const NUMERATOR: usize = 4;
 const DENOMINATOR: usize = 2;
 const UNKNOWNS: usize = NUMERATOR + DENOMINATOR;
+/// A fit: lines of its window, coefficients of numerator and denominator beside the leading 1 of this.
+#[derive(Clone, Copy)]
+struct Order {
+    length: usize,
+    numerator: usize,
+    denominator: usize,
+}
+
+const WHOLE: Order = Order {
+    length: WINDOW,
+    numerator: NUMERATOR,
+    denominator: DENOMINATOR,
+};
+/// By which a value has to stand out, too.
+const SHORTER: Order = Order {
+    length: WINDOW - 2,
+    numerator: NUMERATOR - 1,
+    denominator: DENOMINATOR - 1,
+};
 /// Fewer lines show nothing.
 const FEWEST_LINES: usize = 3 * WINDOW;
 /// Windows that are enough to tell a level.
@@ -89,17 +109,7 @@ impl Roughness {
                 suspicious: Vec::new(),
             };
         }
-        let mut function = Function {
-            frequency_hz,
-            values,
-            known,
-            used: (0..values.len()).collect(),
-            level: Size {
-                relative: 1.0,
-                floor: 1.0,
-            },
-            median: 0.3 * median,
-        };
+        let mut function = Function::new(frequency_hz, values, known, median);
         let distances = function.settle();
         let floor = function.level.floor * function.median;
         let is_measured = function.level.relative.hypot(floor / median) > LEAST_NOISE;
@@ -130,38 +140,25 @@ struct Function<'f> {
     median: f64,
 }
 
-/// A value beside what its window makes of it.
-#[derive(Clone, Copy)]
-struct Deviation {
-    /// The value less what the other lines predict.
-    value: Complex64,
-    /// Its squared deviation from the fit, as large as it would be without that value's own part in the fit.
-    power: f64,
-    /// The same over its variance.
-    distance: f64,
-    /// Mean |H|² of the window.
-    around: f64,
-}
-
-impl Function<'_> {
-    fn variance(&self, line: usize) -> f64 {
-        // A value that is next to nothing between others is not exact for that.
-        let neighbour = |line: Option<usize>| line.and_then(|line| self.values.get(line));
-        let beside = [line.checked_sub(1), Some(line + 1)].map(neighbour);
-        let beside = beside.into_iter().flatten().map(|value| value.norm_sqr());
-        let least = LEAST_OF_NEIGHBOURS * beside.fold(f64::INFINITY, f64::min);
-        let power = self.values[line].norm_sqr().max(least);
-        let level = self.level.relative.powi(2) * power + (self.level.floor * self.median).powi(2);
-        // rounding, at least
-        let level = level.max(1e-30 * power).max(1e-32 * self.median.powi(2));
-        self.known
-            .map_or(level, |known| level.max(known[line] * power))
-    }
-
-    /// Squared frequency, as a part of the highest one's; never zero.
-    fn scale(&self, line: usize) -> f64 {
-        let highest = self.frequency_hz.last().copied().unwrap_or(1.0);
-        (self.frequency_hz[line] / highest).powi(2).max(1e-12)
+impl<'f> Function<'f> {
+    /// All lines, and a level that is not known yet.
+    fn new(
+        frequency_hz: &'f [f64],
+        values: &'f [Complex64],
+        known: Option<&'f [f64]>,
+        median: f64,
+    ) -> Self {
+        Self {
+            frequency_hz,
+            values,
+            known,
+            used: (0..values.len()).collect(),
+            level: Size {
+                relative: 1.0,
+                floor: 1.0,
+            },
+            median: 0.3 * median,
+        }
     }
 
     /// The level under which the deviations are most likely, weights and level in turn; values that stand out are left out.
@@ -196,22 +193,42 @@ impl Function<'_> {
         last
     }
 
+    /// Squared deviations in so many windows, at most, evenly among the lines in use.
+    fn samples(&self, order: Order, windows: usize) -> Vec<Sample> {
+        let stride = self.used.len().div_ceil(windows).max(1);
+        let places = (0..self.used.len()).step_by(stride);
+        let sample = |place: usize| {
+            let own = self.deviation(self.used[place], order)?;
+            Some(Sample {
+                power: own.power,
+                by_relative: self.values[self.used[place]].norm_sqr(),
+                by_floor: self.median.powi(2),
+                known: 0.0,
+                count: 1.0,
+            })
+        };
+        places.filter_map(sample).collect()
+    }
+
+    /// Those that noise may have made, as large as it is at most lines.
+    fn without_the_far(&self, samples: Vec<Sample>) -> Vec<Sample> {
+        let of = |own: &Sample| {
+            let Size { relative, floor } = self.level;
+            own.power / (own.by_relative * relative.powi(2) + own.by_floor * floor.powi(2))
+        };
+        let mut sorted: Vec<f64> = samples.iter().map(of).collect();
+        if sorted.is_empty() {
+            return samples;
+        }
+        let middle = sorted.len() / 2;
+        let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
+        let limit = FAR * *median / std::f64::consts::LN_2;
+        samples.into_iter().filter(|own| of(own) <= limit).collect()
+    }
+
     /// Says whether the level stays what it was.
     fn refine(&mut self) -> bool {
-        let stride = self.used.len().div_ceil(WINDOWS_FOR_LEVEL);
-        let places = (0..self.used.len()).step_by(stride);
-        let samples: Vec<Sample> = places
-            .filter_map(|place| {
-                let own = self.deviation(self.used[place], WINDOW, NUMERATOR, DENOMINATOR)?;
-                Some(Sample {
-                    power: own.power,
-                    by_relative: self.values[self.used[place]].norm_sqr(),
-                    by_floor: self.median.powi(2),
-                    known: 0.0,
-                    count: 1.0,
-                })
-            })
-            .collect();
+        let samples = self.samples(WHOLE, WINDOWS_FOR_LEVEL);
         let before = self.level;
         self.level = most_likely_level(&samples, None);
         let change =
@@ -225,7 +242,7 @@ impl Function<'_> {
     }
 
     fn distance(&self, line: usize) -> f64 {
-        let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR);
+        let own = self.deviation(line, WHOLE);
         own.map_or(0.0, |own| own.distance)
     }
 
@@ -277,96 +294,13 @@ impl Function<'_> {
         if before.min(after) < FEWEST_BESIDE {
             return None;
         }
-        let own = self.deviation(line, WINDOW, NUMERATOR, DENOMINATOR)?;
-        let shorter = self.deviation(line, WINDOW - 2, NUMERATOR - 1, DENOMINATOR - 1)?;
+        let own = self.deviation(line, WHOLE)?;
+        let shorter = self.deviation(line, SHORTER)?;
         let is_far = own.distance > FAR
             && shorter.distance > FAR
             && own.value.norm_sqr() > NEAR * NEAR * own.around
             && (own.value.norm_sqr() > OBVIOUS * OBVIOUS * own.around
                 || (own.value - shorter.value).norm() < AGREEMENT * own.value.norm());
         is_far.then(|| own.value.norm())
-    }
-
-    /// Of a line beside the lines in use around it: H (1 + d₁x + …) = n₀ + n₁x + …, weighted least squares in which the weights'
-    /// denominator follows from a first solution (Sanathanan and Koerner 1963). `None` where the others say nothing of it.
-    fn deviation(
-        &self,
-        line: usize,
-        length: usize,
-        numerator: usize,
-        denominator: usize,
-    ) -> Option<Deviation> {
-        let place = self.used.partition_point(|&other| other < line);
-        let is_used = self.used.get(place) == Some(&line);
-        let others = length - 1;
-        // As many lines on either side as there are.
-        let after = place + usize::from(is_used);
-        let first = place
-            .saturating_sub(others / 2)
-            .min((self.used.len() + usize::from(!is_used)).checked_sub(length)?);
-        let mut window = [line; WINDOW];
-        let mut count = 0;
-        let before = self.used[first..place].iter();
-        for &other in before.chain(&self.used[after..]).take(others) {
-            window[count] = other;
-            count += 1;
-        }
-        if count < others {
-            return None;
-        }
-        // The line itself stands last.
-        let window = &window[..length];
-        let centre = self.frequency_hz[line];
-        let reach = window
-            .iter()
-            .map(|&other| (self.frequency_hz[other] - centre).abs())
-            .fold(0.0, f64::max);
-        let x: [f64; WINDOW] = std::array::from_fn(|k| match window.get(k) {
-            Some(&other) => (self.frequency_hz[other] - centre) / reach,
-            None => 0.0,
-        });
-        let plain: [f64; WINDOW] = std::array::from_fn(|k| match window.get(k) {
-            Some(&other) => (self.variance(other).sqrt() * self.scale(other)).recip(),
-            None => 0.0,
-        });
-        let own = length - 1;
-        // ω²H: what moves as a whole has no pole at zero there.
-        let part = |part: fn(Complex64) -> f64| {
-            Window::of(length, |k| {
-                part(self.values[window[k]]) * self.scale(window[k])
-            })
-        };
-        let values = ComplexWindow {
-            re: part(|value| value.re),
-            im: part(|value| value.im),
-        };
-        let orders = [numerator, denominator];
-        let places = Window::of(length, |k| x[k]);
-        let fit = |weights: &dyn Fn(usize) -> f64| {
-            Fit::of(&places, &values, &Window::of(length, weights), own, orders)
-        };
-        // The line itself has no part in its denominator: a pole and a zero beside each other would take up any single value.
-        let first = fit(&|k| if k == own { 0.0 } else { plain[k] });
-        let fit = fit(&|k| {
-            let powers = first.solution[numerator..numerator + denominator].iter();
-            let divisor = powers
-                .rev()
-                .fold(Complex64::ZERO, |sum, own| (sum + own) * x[k]);
-            plain[k] / (1.0 + divisor).norm().max(1e-6)
-        });
-        let free = 1.0 - fit.leverage;
-        if free < 0.02 {
-            return None;
-        }
-        let variance = self.variance(line);
-        // At the line itself x = 0, so that the divisor is 1.
-        let distance = fit.residual.norm_sqr() / free;
-        let powers = window.iter().map(|&other| self.values[other].norm_sqr());
-        Some(Deviation {
-            value: fit.residual * variance.sqrt() / free,
-            power: distance * variance,
-            distance,
-            around: (powers.sum::<f64>() - self.values[window[own]].norm_sqr()) / own as f64,
-        })
     }
 }

@@ -139,7 +139,7 @@ impl SpatialStudy {
 
     /// Whether the substructures' functions have noise.
     pub(crate) fn has_noise(&self) -> bool {
-        self.noise != [0.0; 2]
+        self.noise.iter().any(|noise| !noise.is_none())
     }
 
     /// What fits best, where searches as far as that lead.
@@ -157,7 +157,7 @@ impl SpatialStudy {
         let level = self.first_level(rms);
         let is_stated = matches!(self.level, Level::Relative(_));
         let own = match (self.has_noise(), problem.error_count()) {
-            (true, _) => searched_beside(problem, &level, self.noise, extent)?,
+            (true, _) => searched_beside(problem, &level, &self.noise, extent)?,
             (false, 0) => {
                 let own = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
                 let fit = own.fit.on(problem, &level)?;
@@ -290,7 +290,7 @@ impl SpatialStudy {
     fn beside_noise(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
         let problem = &self.problem;
         let level = self.first_level(rms);
-        let noise = self.noise;
+        let noise = &self.noise;
         let Begun(Searched {
             fit: best,
             starts,

@@ -118,11 +118,11 @@ impl SpatialIdentification {
                 all => (own[(i, j)] / all).powi(2).min(1.0),
             })
         };
-        let substructures = match (study.noise, &self.substructures) {
+        let substructures = match (&study.noise, &self.substructures) {
             ([a, b], Some(found)) => format!(
                 "noise of {} % and {} % of each value of a and of b taken into account, {} lines left out where it moves too much",
-                100.0 * a,
-                100.0 * b,
+                100.0 * a.relative,
+                100.0 * b.relative,
                 found.lines_left_out
             ),
             _ => "the substructures' functions taken as exact".to_owned(),

@@ -40,6 +40,7 @@ mod numbers;
 mod odd;
 mod outcome;
 mod parallel;
+mod part_noise;
 mod passive;
 mod patterns;
 mod phases;
@@ -73,6 +74,7 @@ pub use identification::{
     FunctionFit, Group, SetUpError, SpatialIdentification, Substructures, Unknown,
 };
 pub use misfits::{Misfit, MisfitCause};
+pub use part_noise::PartNoise;
 pub use problem::Level;
 pub use study::SpatialStudy;
 // what its errors and indicators are told by

@@ -93,7 +93,7 @@ impl SpatialStudy {
             relative_rms: relative_rms(&compared, &alone.unknowns)?,
             functions: problem.observed.len(),
             lines,
-            substructures: (self.noise != [0.0; 2]).then_some(Substructures {
+            substructures: self.has_noise().then_some(Substructures {
                 lines_left_out: left_out,
                 moves: alone.moved,
             }),

@@ -14,6 +14,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::chain::ChainStudy;
 use crate::level::size;
 use crate::links::Links;
+use crate::part_noise::{PartNoise, Shown};
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
 use crate::tables::{JointTable, ModelName, NoiseTable, SensorTable, StudyFile};
@@ -39,8 +40,8 @@ pub struct SpatialStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
-    /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
-    pub noise: [f64; 2],
+    /// Noise of the functions of a and of b.
+    pub noise: [PartNoise; 2],
     /// Functions of the assembly that are left out since they are zero.
     pub(crate) zero_functions: usize,
     /// What had to be assumed of the files.
@@ -90,7 +91,9 @@ impl SpatialStudy {
                 .and_then(|assembly| unmatched(&sides, &observed, assembly)),
         );
         let budget = reader.budget(&file.budget, &sides, &chain.parts)?;
-        Ok(Self {
+        let may_show = [(&file.a, file.noise.a), (&file.b, file.noise.b)]
+            .map(|(part, stated)| part.frf.is_some() && stated.is_none());
+        let own = Self {
             motions: chain.motions,
             path: study.path().to_owned(),
             name: file.name,
@@ -111,7 +114,26 @@ impl SpatialStudy {
                 links: Links(vec![link]),
             }
             .with_anew(budget.anew),
+        };
+        // a chain takes the noise of the assembly's functions alone
+        Ok(match file.joint.len() {
+            1 => own.with_shown_noise(may_show),
+            _ => own,
         })
+    }
+
+    /// With noise that the functions of substructures show, where these `may_show` it since the study states none.
+    fn with_shown_noise(mut self, may_show: [bool; 2]) -> Self {
+        if let Some(shown) = Shown::of(&self.problem, self.level, may_show) {
+            self.level = shown.level;
+            for (own, shown) in self.noise.iter_mut().zip(shown.noise) {
+                if own.is_none() {
+                    *own = shown;
+                }
+            }
+            self.assumed.push(shown.note);
+        }
+        self
     }
 
     /// The motions that the interfaces have.
@@ -174,10 +196,10 @@ pub(crate) fn motions(study: &StudyText, list: Option<&[String]>) -> Result<Moti
 
 impl Reader<'_> {
     /// Noise of the substructures.
-    pub(crate) fn noise(&self, table: &NoiseTable) -> Result<[f64; 2], StudyError> {
+    pub(crate) fn noise(&self, table: &NoiseTable) -> Result<[PartNoise; 2], StudyError> {
         let of = |key: &str, given: Option<f64>| {
-            let Some(part) = given else {
-                return Ok(0.0);
+            let Some(part) = given.filter(|&part| part != 0.0) else {
+                return Ok(PartNoise::NONE);
             };
             self.study.ensure(
                 table.relative.is_some(),
@@ -185,11 +207,10 @@ impl Reader<'_> {
                 format_args!("{part} without noise.relative"),
                 "the noise of the assembly's functions beside that of the substructures",
             )?;
-            let expected =
-                "noise in parts of each value, such as 0.01; without the key there is none";
+            let expected = "noise in parts of each value, such as 0.01, or 0 for exact functions";
             self.study.positive(key, part, expected)?;
             self.study.part_of_whole(key, part)?;
-            Ok::<f64, StudyError>(part)
+            Ok::<_, StudyError>(PartNoise::of_values(part))
         };
         Ok([of("noise.a", table.a)?, of("noise.b", table.b)?])
     }

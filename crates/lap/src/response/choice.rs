@@ -64,7 +64,7 @@ pub(super) struct Candidate {
     /// Highest harmonic of the relative motion in `fit`.
     pub(super) harmonics: usize,
     /// Backbones and decays as they were fitted.
-    backbones: Vec<BackboneRun>,
+    pub(super) backbones: Vec<BackboneRun>,
     bic: f64,
 }
 

@@ -12,6 +12,7 @@ mod decay;
 mod dynamic_stiffness;
 mod file;
 mod fit;
+mod kinks;
 mod model;
 mod odd;
 mod passive;

@@ -10,6 +10,7 @@ use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
 use super::decay::InTime;
 use super::fit::Fit;
+use super::kinks::at_kinks;
 use super::model::{Model, Motion, ResponseUnknown, Values};
 use super::odd::{self, Misfit};
 use super::prediction::{
@@ -100,17 +101,13 @@ impl LapResponse {
     /// [`LapError`] if the data determine no model, or if a file has vanished meanwhile.
     pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, LapError> {
         let (chosen, comparison) = choice::choose(study)?;
+        let (chosen, raised) = at_kinks(study, chosen);
         let model = chosen.model(study);
         let (fit, free) = (chosen.fit, chosen.free);
         // Errors are those of the free estimate: what the limits add to the residual is no noise.
         let base = free.as_ref().unwrap_or(&fit);
-        let reduced = base.reduced_chi_squared();
-        let factor = if study.noise.is_stated {
-            reduced.max(1.0)
-        } else {
-            reduced
-        };
-        let of_base = Searched::of(&model, base, factor);
+        let factor = study.raised_by(base);
+        let of_base = Searched::of(&model, base, factor).raised(&raised);
         let by_searched = by_searched(&model, &base.values);
         let covariance = &by_searched * &of_base.covariance * by_searched.transpose();
         let amplitude_m = fit.amplitude_m;
@@ -148,7 +145,7 @@ impl LapResponse {
             }
         });
         let estimates = estimates.collect();
-        let of_fit = Searched::of(&model, &fit, factor);
+        let of_fit = Searched::of(&model, &fit, factor).raised(&raised);
         let (predictions, unpredicted) =
             Prediction::of_all(&model, &fit, &study.sines, &of_fit.covariance);
         let spread = Spread {

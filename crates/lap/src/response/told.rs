@@ -51,6 +51,16 @@ impl Searched {
         }
     }
 
+    /// With deviations so many times as large.
+    pub(super) fn raised(mut self, by: &[f64]) -> Self {
+        for (i, row) in by.iter().enumerate() {
+            for (j, column) in by.iter().enumerate() {
+                self.covariance[(i, j)] *= row * column;
+            }
+        }
+        self
+    }
+
     /// Whether a number that is told depends on nothing but what the data say something of; `by` are the derivatives of all
     /// (rows) by what is searched. What is searched in the place of a law's number is not that number, but one of its logarithms.
     pub(super) fn tells(

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use super::data::Use;
 use super::decay::{InTime, NotInTime};
+use super::kinks::of_few_beyond;
 use super::plausible;
 use super::prediction::BackbonePrediction;
 use super::result::LapResponse;
@@ -50,6 +51,7 @@ impl LapResponse {
                 open.join(", ")
             ));
         }
+        warnings.extend(of_few_beyond(study, &self.fit));
         warnings.extend(self.of_price());
         warnings.extend(self.of_residual(study));
         warnings.extend(self.misfit.told());

@@ -14,6 +14,7 @@ use super::plan::candidates::Candidate;
 use super::response::Scatter;
 use crate::functions::FileOfFunctions;
 use crate::links::{Links, Numbers};
+use crate::part_noise::PartNoise;
 use crate::problem::{Level, Observed, Problem};
 use crate::side::Side;
 use crate::study::{Reader, model_name, motions};
@@ -39,8 +40,8 @@ pub struct ChainStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
-    /// Noise of the functions of a and of b in parts of each value; 0 where they are exact.
-    pub noise: [f64; 2],
+    /// Noise of the functions of a and of b.
+    pub noise: [PartNoise; 2],
     pub(crate) text: StudyText,
     /// What the interfaces have.
     pub(crate) motions: Motions,
@@ -199,11 +200,11 @@ impl ChainStudy {
         // their noise takes part where two structures are joined by one joint
         let noise = reader.noise(&file.noise)?;
         let is_chain = file.joint.len() > 1;
-        for (key, part) in [("noise.a", noise[0]), ("noise.b", noise[1])] {
-            if is_chain && part > 0.0 {
+        for (key, noise) in ["noise.a", "noise.b"].into_iter().zip(&noise) {
+            if is_chain && !noise.is_none() {
                 let expected =
                     "none for chains: they take the noise of the assembly's functions alone";
-                return study.refuse(key, part, expected);
+                return study.refuse(key, noise.relative, expected);
             }
         }
         let mut files = vec![study.record()];

@@ -8,6 +8,7 @@ use crate::error::SpatialError;
 use crate::normal::Deviations;
 use crate::normal::Normal;
 use crate::parallel::over_few_lines;
+use crate::part_noise::PartNoise;
 use crate::problem::{Problem, Unknowns};
 use crate::together::LINES_MAX;
 
@@ -89,7 +90,7 @@ impl Problem {
         &self,
         truth: &Unknowns,
         level: &Deviations,
-        noise: [f64; 2],
+        noise: &[PartNoise; 2],
     ) -> Result<(Normal, usize), SpatialError> {
         let kept = Beside::of(self, level, noise, truth)?.kept(truth)?;
         let mut own = self.with_lines(&kept);

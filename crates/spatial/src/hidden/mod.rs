@@ -33,6 +33,7 @@ use crate::error::SpatialError;
 use crate::fit::Squares;
 use crate::normal::{Deviations, Normal, add_priors, squares_of_errors};
 use crate::parallel::{over_few_lines, over_lines};
+use crate::part_noise::PartNoise;
 use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
 use crate::side::MOTIONS;
@@ -53,12 +54,11 @@ pub(crate) struct Beside<'p> {
 }
 
 impl<'p> Beside<'p> {
-    /// With the substructures as they were measured by a set-up with the errors among `at`; they have noise in these parts of each
-    /// value.
+    /// With the substructures as they were measured by a set-up with the errors among `at`; their functions have this noise.
     pub(crate) fn of(
         problem: &'p Problem,
         level: &Deviations,
-        noise: [f64; 2],
+        noise: &[PartNoise; 2],
         at: &Unknowns,
     ) -> Result<Self, SpatialError> {
         let errors = problem.errors(at);
@@ -74,11 +74,11 @@ impl<'p> Beside<'p> {
                 let of = |line: usize| {
                     let functions = &side.lines[line];
                     // weights by what is measured would favour what noise has made small
-                    let first = weights(functions, noise[n]);
+                    let first = weights(functions, &noise[n]);
                     let weights = match side.points() {
                         Some(_) => {
                             let smooth = reduced_by(&own, &first, functions)?;
-                            weights(&rows.reduction.expanded(&smooth), noise[n])
+                            weights(&rows.reduction.expanded(&smooth), &noise[n])
                         }
                         None => first,
                     };

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use crate::dyads::{Grid, Group, descent, information};
 use crate::error::SpatialError;
+use crate::part_noise::PartNoise;
 
 /// Noise of a substructure that is said to have none, in parts of each value: nobody knows better.
 const LEAST: f64 = 1e-4;
@@ -32,8 +33,8 @@ impl Grids {
     }
 }
 
-/// 1/σ² of functions whose noise is this part of each value.
-pub(super) fn weights(functions: &DMatrix<Complex64>, part: f64) -> DMatrix<f64> {
+/// 1/σ² of functions with this noise.
+pub(super) fn weights(functions: &DMatrix<Complex64>, noise: &PartNoise) -> DMatrix<f64> {
     let rms = |all: Vec<f64>| (all.iter().sum::<f64>() / all.len().max(1) as f64).sqrt();
     let of_rows: Vec<f64> = (functions.row_iter())
         .map(|row| rms(row.iter().map(Complex64::norm_sqr).collect()))
@@ -44,7 +45,8 @@ pub(super) fn weights(functions: &DMatrix<Complex64>, part: f64) -> DMatrix<f64>
     let all = rms(functions.iter().map(Complex64::norm_sqr).collect());
     DMatrix::from_fn(functions.nrows(), functions.ncols(), |i, j| {
         let least = FAINT * of_rows[i] * of_columns[j] / all;
-        let size = functions[(i, j)].norm().max(least) * part.max(LEAST);
+        let of_value = functions[(i, j)].norm().max(least) * noise.relative.max(LEAST);
+        let size = of_value.hypot(noise.floor(i, j));
         if size > 0.0 { size.powi(-2) } else { 0.0 }
     })
 }

@@ -6,6 +6,7 @@ use super::compare::{Comparison, Start};
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, squares_of_errors};
+use crate::part_noise::PartNoise;
 use crate::problem::{Problem, Unknowns};
 use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, agreeing_with, by_chance};
 use crate::starts::starts;
@@ -43,7 +44,7 @@ const LOW_MIN: usize = LINES;
 pub(crate) fn searched_beside(
     problem: &Problem,
     level: &Deviations,
-    noise: [f64; 2],
+    noise: &[PartNoise; 2],
     extent: Extent<'_>,
 ) -> Result<Option<Searched>, SpatialError> {
     let given = Given {
@@ -110,7 +111,7 @@ fn compared(
 pub(super) struct Given<'p> {
     pub(super) problem: &'p Problem,
     pub(super) level: &'p Deviations,
-    pub(super) noise: [f64; 2],
+    pub(super) noise: &'p [PartNoise; 2],
 }
 
 impl<'p> Given<'p> {
@@ -265,7 +266,7 @@ impl<'p> Searches<'p> {
 pub(crate) fn estimated(
     problem: &Problem,
     level: &Deviations,
-    noise: [f64; 2],
+    noise: &[PartNoise; 2],
     unknowns: &Unknowns,
 ) -> Result<Problem, SpatialError> {
     let some = problem.thinned(LOOKED_AT * LINES_MAX);

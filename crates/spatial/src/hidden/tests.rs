@@ -4,7 +4,9 @@ use super::follow::advanced;
 use super::*;
 use crate::samples::{number, problem, problem_anew, unknowns};
 
-const NOISE: [f64; 2] = [0.02, 0.03];
+fn noise() -> [PartNoise; 2] {
+    [0.02, 0.03].map(PartNoise::of_values)
+}
 
 /// A problem whose functions follow from rigid interfaces, but for some noise; its levels and where it is looked at.
 fn sample(problem: Problem) -> (Problem, Deviations, Unknowns) {
@@ -62,7 +64,7 @@ fn the_descent_by_what_is_anew_is_that_of_the_squares_without_h() {
 
 fn compare_descent(problem: Problem) {
     let (problem, level, at) = sample(problem);
-    let mut squares = Beside::of(&problem, &level, NOISE, &at).unwrap();
+    let mut squares = Beside::of(&problem, &level, &noise(), &at).unwrap();
     let normal = squares.normal(&at).unwrap();
     assert!((normal.cost - squares.cost(&at).unwrap()).abs() < 1e-6 * normal.cost);
     for unknown in 0..problem.count() {
@@ -92,7 +94,7 @@ fn the_information_on_what_is_anew_is_that_of_a_table_of_differences() {
 
 fn compare_information(problem: Problem) {
     let (problem, level, at) = sample(problem);
-    let squares = Beside::of(&problem, &level, NOISE, &at).unwrap();
+    let squares = Beside::of(&problem, &level, &noise(), &at).unwrap();
     let normal = squares.normal_as_measured(&at).unwrap();
     let count = problem.count();
     let mut expected = DMatrix::<f64>::zeros(count, count);

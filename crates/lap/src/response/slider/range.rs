@@ -54,4 +54,29 @@ impl SliderValues {
         }
         own
     }
+
+    /// Displacement from which on all of it slips, m.
+    pub(in crate::response) fn slips_at_m(&self) -> f64 {
+        match self.slider {
+            Slider::Jenkins => (self.logs[1] - self.logs[0]).exp(),
+            Slider::MicroSlip | Slider::Iwan => self.reference_m * self.logs[2].exp(),
+        }
+    }
+
+    /// The law that slips from there on; one slider with the heat that it had at the largest displacement.
+    pub(in crate::response) fn slipping_at(&self, kink_m: f64, largest_m: f64) -> Self {
+        let mut own = *self;
+        match self.slider {
+            Slider::Jenkins => {
+                // D = 4 F_S (A − F_S/K_T)
+                let of = |at_m: f64| at_m * (largest_m - at_m);
+                let stiffness = self.logs[0] + (of(self.slips_at_m()) / of(kink_m)).abs().ln();
+                own.logs[0] = stiffness;
+                own.logs[1] = stiffness + kink_m.ln();
+            }
+            Slider::MicroSlip | Slider::Iwan => own.logs[2] = (kink_m / self.reference_m).ln(),
+        }
+        own.keep_in_range();
+        own
+    }
 }

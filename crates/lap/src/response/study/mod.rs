@@ -16,6 +16,7 @@ use self::repeats::Repeats;
 use self::tables::StudyFile;
 use super::backbone::{BackboneRun, read_backbone, read_decay};
 use super::data::{SineOptions, SineRun, Use, read_sine};
+use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
 use super::terms::TermSet;
 use crate::error::LapError;
@@ -114,6 +115,16 @@ impl LapResponseStudy {
     #[must_use]
     pub fn schema() -> schema::Schema {
         schema::of::<StudyFile>()
+    }
+
+    /// By how much variances are raised where the residual is larger than the stated noise; the factor that makes the nominal noise
+    /// that of the residual, where none is stated.
+    pub(in crate::response) fn raised_by(&self, fit: &Fit) -> f64 {
+        let reduced = fit.reduced_chi_squared();
+        match self.noise.is_stated {
+            true => reduced.max(1.0),
+            false => reduced,
+        }
     }
 
     /// Noise of each kind of data that there is: its name and the fraction.

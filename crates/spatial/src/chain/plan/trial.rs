@@ -13,6 +13,7 @@ use crate::fit::covariance;
 use crate::level::sizes;
 use crate::links::is_determined;
 use crate::normal::{Deviations, Normal};
+use crate::part_noise::PartNoise;
 use crate::problem::{Observed, Problem, Unknowns};
 use crate::side::{Interface, MOTIONS, Side};
 use crate::spread::Spread;
@@ -35,8 +36,8 @@ pub(super) struct Test {
     pub(super) level: Deviations,
     /// Row and column of every function, also of those that are zero.
     places: Vec<[usize; 2]>,
-    /// Noise of the substructures, in parts of each value.
-    noise: [f64; 2],
+    /// Noise of the substructures.
+    noise: [PartNoise; 2],
 }
 
 impl Test {
@@ -80,7 +81,7 @@ impl Test {
             truth,
             level,
             places,
-            noise: study.noise,
+            noise: study.noise.clone(),
         })
     }
 
@@ -114,8 +115,8 @@ impl Test {
         };
         let exact = problem.displaced(truth)?;
         let own = Unknowns(truth.0.rows(0, count).into_owned());
-        let (normal, alone, lines) = match self.noise {
-            [0.0, 0.0] => (
+        let (normal, alone, lines) = match &self.noise {
+            [a, b] if a.is_none() && b.is_none() => (
                 Normal::of(&estimated, truth, level)?,
                 Normal::of(&exact, &own, level)?,
                 problem.frequency_hz.len(),

@@ -4,7 +4,7 @@ use bolted_joint::harmonic::{
     CurveOptions, CurvePoint, HarmonicBalance, HarmonicError, HarmonicLoads, Harmonics, Observed,
     Target,
 };
-use bolted_joint_dynamics::Lap;
+use bolted_joint_dynamics::{Body, Lap, Linear};
 use bolted_joint_testing::close;
 use num_complex::Complex64;
 
@@ -183,6 +183,38 @@ fn multipliers_of_a_linear_lap_are_those_of_its_modes() {
         let distances = found.iter().map(|found| (found - expected).norm());
         let nearest = distances.fold(f64::MAX, f64::min);
         assert!(nearest < 2e-6, "{expected}: {nearest}");
+    }
+}
+
+/// A passive oscillator that nothing holds: what drifts has two multipliers of 1, which rounding must not make unstable.
+#[test]
+fn a_free_lap_is_stable_where_it_is_linear() {
+    let held = HARDENING.symmetric();
+    let free = |body: Body<1>| Body {
+        stiffness: [0.0],
+        damping: [0.0],
+        ..body
+    };
+    let lap = Lap {
+        a: free(held.a),
+        b: free(held.b),
+        joint: Linear {
+            stiffness: [[50.0]],
+            damping: [[0.1]],
+        }
+        .into(),
+    };
+    let balance = balance(&lap, Harmonics::odd(1));
+    for loads in [HarmonicLoads::opposed(1.0), HarmonicLoads::on_a(1.0)] {
+        for n in 0..200 {
+            let omega = 1.0 + 0.13 * f64::from(n);
+            let solution = balance.forced(omega, &loads, None).unwrap();
+            let stability = balance.stability(&solution).unwrap();
+            assert!(stability.is_stable(), "{omega}: {stability:?}");
+            let ones = stability.multipliers.iter();
+            let ones = ones.filter(|multiplier| **multiplier == Complex64::from(1.0));
+            assert_eq!(ones.count(), 2);
+        }
     }
 }
 

@@ -18,6 +18,8 @@ const STEPS_PER_RADIAN: f64 = 24.0;
 const ON_THE_CIRCLE: f64 = 1e-9;
 /// Part of a step by which a moment at the end of a smooth part is taken from within.
 const EDGE: f64 = 1e-6;
+/// A lap that nothing holds drifts: two multipliers are 1, and rounding parts them by its root.
+const DRIFTS: f64 = 1e-5;
 /// Iterations for all eigenvalues of a small matrix.
 const MOST_ITERATIONS: usize = 1000;
 
@@ -81,8 +83,26 @@ impl<const D: usize> HarmonicBalance<D> {
         }
         let schur = Schur::try_new(monodromy, f64::EPSILON, MOST_ITERATIONS).ok_or_else(refuse)?;
         let mut multipliers: Vec<Complex64> = schur.complex_eigenvalues().iter().copied().collect();
+        self.take_for_drifts(&mut multipliers);
         multipliers.sort_by(|one, other| other.norm().total_cmp(&one.norm()));
         Ok(Stability { multipliers })
+    }
+
+    /// Makes exact what follows from bodies that are free together on a DOF.
+    fn take_for_drifts(&self, multipliers: &mut [Complex64]) {
+        let is_free = |dof: &usize| {
+            let bodies = [&self.lap.a, &self.lap.b].into_iter();
+            bodies
+                .flat_map(|body| [body.stiffness[*dof], body.damping[*dof]])
+                .all(|support| support == 0.0)
+        };
+        let drifts = 2 * (0..D).filter(is_free).count();
+        let one = Complex64::from(1.0);
+        multipliers.sort_by(|a, b| (a - one).norm().total_cmp(&(b - one).norm()));
+        let nearest = multipliers.iter_mut().take(drifts);
+        nearest
+            .filter(|multiplier| (**multiplier - one).norm() < DRIFTS)
+            .for_each(|multiplier| *multiplier = one);
     }
 
     /// The course of a DOF.

@@ -133,10 +133,10 @@ fn flag(is_so: bool) -> f64 {
     if is_so { 1.0 } else { 0.0 }
 }
 
-/// The lap without what is not linear.
-pub(super) fn linear_part<const D: usize>(lap: &Lap<D>) -> Lap<D> {
+/// The lap of small motion about rest, in which what may slip sticks.
+fn of_small_motion<const D: usize>(lap: &Lap<D>) -> Lap<D> {
     Lap {
-        joint: lap.joint.linear.into(),
+        joint: lap.joint.linearised_about(&[0.0; D]),
         ..*lap
     }
 }
@@ -158,7 +158,7 @@ pub(super) fn receptances<const D: usize>(
     motions: &[Observed],
     quantity: Derivative,
 ) -> Result<Vec<Vec<f64>>, HarmonicError> {
-    let balance = HarmonicBalance::new(&linear_part(lap), Harmonics::odd(1)?)?;
+    let balance = HarmonicBalance::new(&of_small_motion(lap), Harmonics::odd(1)?)?;
     let load = unit_load(place);
     frequencies_hz
         .map(|frequency_hz| {

@@ -72,7 +72,7 @@ pub struct Times {
 /// What is done to the laps.
 #[derive(Clone, Debug)]
 pub enum Test {
-    /// Receptances without what is not linear.
+    /// Receptances of small motion.
     Linear {
         /// Frequencies.
         span: Span,

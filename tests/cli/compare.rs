@@ -41,7 +41,7 @@ fn differences_are_in_standard_deviations() {
     );
     has(
         &bench.text("o.html"),
-        &["90000 ± 400", "joint, in the order given"],
+        &["90000(400)", "joint, in the order given"],
     );
     bench.done("compare new.json worn.json new.json --plot o.svg");
     assert!(bench.text("o.svg").starts_with("<svg"));

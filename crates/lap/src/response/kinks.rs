@@ -41,8 +41,8 @@ const LOWER: f64 = 0.5;
 pub(super) fn at_kinks(study: &LapResponseStudy, mut chosen: Candidate) -> (Candidate, Vec<f64>) {
     let model = chosen.model(study);
     let mut raised = vec![1.0; model.unknowns.len()];
-    // the samples of decays have their own search, and no such corners: every amplitude is passed
-    if model.terms.slider().is_none() || chosen.in_time == InTime::Fitted {
+    // decays pass every amplitude, and what is read of them has no such corners
+    if model.terms.slider().is_none() || chosen.in_time != InTime::NoDecay {
         return (chosen, raised);
     }
     let runs = study.sines.iter().filter(|run| run.used_for == Use::Fit);

@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, Matrix6};
 use crate::SpatialStudy;
 use crate::chain::{ChainIdentification, ChainStudy, FoundJoint};
 use crate::identification::{QUANTILE, SpatialIdentification, Unknown};
+use crate::part_noise::percent;
 use crate::problem::Level;
 
 /// What is told of one joint.
@@ -120,9 +121,9 @@ impl SpatialIdentification {
         };
         let substructures = match (&study.noise, &self.substructures) {
             ([a, b], Some(found)) => format!(
-                "noise of {} % and {} % of each value of a and of b taken into account, {} lines left out where it moves too much",
-                100.0 * a.relative,
-                100.0 * b.relative,
+                "noise of {} and {} of each value of a and of b taken into account, {} lines left out where it moves too much",
+                percent(a.relative),
+                percent(b.relative),
                 found.lines_left_out
             ),
             _ => "the substructures' functions taken as exact".to_owned(),
@@ -215,7 +216,7 @@ fn residual(relative_rms: f64, lines: usize, reduced_chi_squared: Option<f64>) -
 
 fn words(level: Level) -> String {
     match level {
-        Level::Relative(part) => format!("noise of {} % of each function's r.m.s.", 100.0 * part),
+        Level::Relative(part) => format!("noise of {} of each function's r.m.s.", percent(part)),
         Level::OfResiduals => "noise as large as each function's residual".to_owned(),
     }
 }

@@ -220,7 +220,7 @@ fn beyond(role: Role) -> Role {
 }
 
 /// Of finite numbers; `None` of none.
-fn median(mut values: Vec<f64>) -> Option<f64> {
+pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.retain(|value| value.is_finite());
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()

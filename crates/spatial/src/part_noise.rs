@@ -5,6 +5,7 @@ use bolted_joint_identify::ShownLevel;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use crate::odd::median;
 use crate::problem::{Level, Problem};
 use crate::side::Side;
 
@@ -66,7 +67,6 @@ impl Shown {
             Level::Relative(_) => level,
             Level::OfResiduals => Level::Relative(of_assembly(problem)?),
         };
-        let percent = |part: f64| format!("{} %", number(100.0 * part, 2));
         let named = std::iter::zip(["a", "b"], &sides).filter_map(|(name, shown)| {
             let (level, _) = shown.as_ref()?;
             let floor = match level.floor > 0.1 * level.relative {
@@ -88,6 +88,11 @@ impl Shown {
     }
 }
 
+/// A part in per cent; noise is not known better.
+pub(crate) fn percent(part: f64) -> String {
+    format!("{} %", number(100.0 * part, 3))
+}
+
 /// Of a substructure.
 fn of_side(side: &Side, frequency_hz: &[f64]) -> Option<(ShownLevel, PartNoise)> {
     let (rows, columns) = (side.responses.len(), side.references.len());
@@ -97,7 +102,11 @@ fn of_side(side: &Side, frequency_hz: &[f64]) -> Option<(ShownLevel, PartNoise)>
     let places = (0..columns).flat_map(|column| (0..rows).map(move |row| (row, column)));
     let functions: Vec<_> = places.map(|(row, column)| function(row, column)).collect();
     let shown = ShownLevel::of(frequency_hz, &functions).filter(|shown| shown.is_noise)?;
-    let floors = functions.iter().map(|values| shown.floor * median(values));
+    let floor = |values: &Vec<Complex64>| {
+        let middle = median(values.iter().map(|value| value.norm()).collect());
+        shown.floor * middle.unwrap_or(0.0)
+    };
+    let floors = functions.iter().map(floor);
     let noise = PartNoise {
         relative: shown.relative,
         floors: Some(DMatrix::from_iterator(rows, columns, floors)),
@@ -110,13 +119,4 @@ fn of_assembly(problem: &Problem) -> Option<f64> {
     let functions = problem.observed.iter().map(|one| one.values.clone());
     let shown = ShownLevel::of(&problem.frequency_hz, &functions.collect::<Vec<_>>())?;
     Some(shown.typical)
-}
-
-fn median(values: &[Complex64]) -> f64 {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
-    let middle = sizes.len() / 2;
-    match sizes.is_empty() {
-        true => 0.0,
-        false => *sizes.select_nth_unstable_by(middle, f64::total_cmp).1,
-    }
 }

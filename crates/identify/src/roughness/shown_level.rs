@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use super::{FEWEST_LINES, Function, ROUNDS, SHORTER, WHOLE};
+use crate::bands::median;
 use crate::noise::{Size, most_likely_level};
 
 /// Functions that are asked, evenly among all, and windows of each.
@@ -61,11 +62,11 @@ struct Found {
 
 impl Found {
     fn of(frequency_hz: &[f64], values: &[Complex64]) -> Option<Self> {
-        let median = median(values.iter().map(|value| value.norm()).collect())?;
-        if median == 0.0 {
+        let middle = median(values.iter().map(|value| value.norm()).collect())?;
+        if middle == 0.0 {
             return None;
         }
-        let mut function = Function::new(frequency_hz, values, None, median);
+        let mut function = Function::new(frequency_hz, values, None, middle);
         for _ in 0..ROUNDS {
             let samples = function.samples(WHOLE, WINDOWS);
             // bad values are no noise
@@ -76,7 +77,7 @@ impl Found {
             function.level = most_likely_level(&samples, None);
         }
         // half of all squares of noise are below ln 2 times their mean
-        let mean = |squares: Vec<f64>| Some(self::median(squares)? / std::f64::consts::LN_2);
+        let mean = |squares: Vec<f64>| Some(median(squares)? / std::f64::consts::LN_2);
         let samples = [WHOLE, SHORTER].map(|order| function.samples(order, WINDOWS));
         let [whole, shorter] = samples.each_ref().map(|samples| {
             let parts = samples.iter().map(|own| own.power / own.by_relative);
@@ -89,15 +90,10 @@ impl Found {
             sizes: [whole?, shorter?],
             level: Size {
                 relative: function.level.relative,
-                floor: function.level.floor * function.median / median,
+                floor: function.level.floor * function.median / middle,
             },
         })
     }
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 #[cfg(test)]

@@ -252,6 +252,41 @@ fn a_decay_begins_with_the_turn_of_its_slider() {
     }
 }
 
+/// What may slip sticks in small motion, and is a spring: H = 1/(k + k_T − mω²) of a body beside one that hardly moves.
+#[test]
+fn small_motion_keeps_the_springs_that_may_slip() {
+    let (spring, slider) = (1e5, 1e6);
+    for law in [
+        r#""jenkins", "stiffness": 1e6, "slip_force": 100"#,
+        r#""iwan", "stiffness": 1e6, "slip_force": 100, "exponent": -0.3, "ratio": 0.5"#,
+        r#""valanis", "stiffness": 1e6, "slip_stiffness": 0, "slip_force": 100, "kappa": 0.5"#,
+        r#""dahl", "stiffness": 1e6, "slip_force": 100"#,
+    ] {
+        let bench = Bench::new();
+        let joint = format!(
+            r#"{{ "format": "bolted-joint/1", "name": "slider",
+            "joint": {{ "dofs": ["y"], "stiffness": [[{spring:e}]], "damping": [[0.0]],
+              "friction": [{{ "dof": "y", "law": {law} }}] }},
+            "bodies": {{ "a": {{ "inertia": [1.0], "stiffness": [0.0], "damping": [0.0] }},
+                         "b": {{ "inertia": [1e12], "stiffness": [0.0], "damping": [0.0] }} }} }}"#
+        );
+        bench.write("slider.joint.json", joint);
+        let rest = "[frequency]\nfrom = 10\nto = 300\nlines = 30\n[load]\non = \"a\"\n";
+        let text = study("linear", rest).replace("ex02", "slider");
+        bench.write("study.toml", text);
+        bench.done("respond study.toml -o out.csv");
+        for (_, row) in table(&bench.text("out.csv")) {
+            let omega = std::f64::consts::TAU * row["frequency"];
+            let expected = (spring + slider - omega * omega).recip().abs();
+            let found = row["relative.y modulus"];
+            assert!(
+                (found / expected - 1.0).abs() < 1e-9,
+                "{law}: {found:e} {expected:e}"
+            );
+        }
+    }
+}
+
 /// A joint without bodies, with a slider: D = 4h(U − h/k), and no heat while it sticks.
 #[test]
 fn a_loop_has_the_heat_of_its_slider() {

@@ -101,7 +101,20 @@ fn along(
     if others.is_empty() {
         return Along::Raised(raised);
     }
+    let movers: Vec<ResponseUnknown> = (model.unknowns.iter().copied())
+        .filter(|unknown| moves_a_kink(model, *unknown))
+        .collect();
     for values in others {
+        // where no minimum is, and χ² yet hardly larger
+        for held in &movers {
+            let held = fit::fit(&without(model, *held), data, noise, &values, Kind::Free);
+            let is_as_good =
+                |found: &Fit| found.chi_squared - base.chi_squared < factor * NORMAL_975.powi(2);
+            if let Some(found) = held.ok().filter(is_as_good) {
+                let change = model.change(&base.values, &found.values);
+                raise(&mut raised, covariance, &change);
+            }
+        }
         let Ok(found) = fit::fit(model, data, noise, &values, Kind::Free) else {
             continue;
         };
@@ -126,12 +139,7 @@ fn along(
             continue;
         }
         let direction = covariance.column(place) / variance.sqrt();
-        let others = Model {
-            unknowns: (model.unknowns.iter().copied())
-                .filter(|other| other != unknown)
-                .collect(),
-            ..model.clone()
-        };
+        let others = without(model, *unknown);
         // where that unknown is so many deviations off, and all others follow
         let led = |deviations: f64| -> Option<Fit> {
             let values = model.moved(&base.values, &(&direction * deviations));
@@ -144,9 +152,6 @@ fn along(
                     return f64::INFINITY;
                 };
                 let rise = (found.chi_squared - base.chi_squared) / factor;
-                if std::env::var("DBG").is_ok() {
-                    eprintln!("DBG {unknown:?} {} {rise}", sign * deviations);
-                }
                 if rise < -LOWER {
                     lowest = Some(found);
                 }
@@ -166,6 +171,15 @@ fn along(
         }
     }
     Along::Raised(raised)
+}
+
+/// The model in which this unknown is known.
+fn without(model: &Model, unknown: ResponseUnknown) -> Model {
+    let unknowns = model.unknowns.iter().copied();
+    Model {
+        unknowns: unknowns.filter(|other| *other != unknown).collect(),
+        ..model.clone()
+    }
 }
 
 /// By how much the deviations have to be raised for these changes to lie within 95 %.

@@ -55,18 +55,20 @@ fn equivalent(first_loading: &FirstLoading, amplitude: f64) -> [f64; 2] {
 
 /// Amplitude, frequency (Hz) and damping ratio of each point; `small` is the law's stiffness of small motion.
 pub(crate) fn backbone(first_loading: &FirstLoading, small: f64) -> Vec<[f64; 3]> {
-    let point = |n: u32| {
-        let amplitude = LARGEST_M * (f64::from(n) / 40.0).powi(2);
-        let [stiffness, loss] = equivalent(first_loading, amplitude);
-        // the spring beside the law leaves K0 for small motion
-        let omega = ((K0 - small + stiffness) / (0.5 * MASS)).sqrt();
-        [
-            amplitude,
-            omega / TAU,
-            (C12 * omega + loss) / (MASS * omega * omega),
-        ]
-    };
-    (1..=40).map(point).collect()
+    let amplitudes = (1..=40).map(|n| LARGEST_M * (f64::from(n) / 40.0).powi(2));
+    let of = |amplitude| point(first_loading, small, amplitude);
+    amplitudes.map(of).collect()
+}
+
+fn point(first_loading: &FirstLoading, small: f64, amplitude: f64) -> [f64; 3] {
+    let [stiffness, loss] = equivalent(first_loading, amplitude);
+    // the spring beside the law leaves K0 for small motion
+    let omega = ((K0 - small + stiffness) / (0.5 * MASS)).sqrt();
+    [
+        amplitude,
+        omega / TAU,
+        (C12 * omega + loss) / (MASS * omega * omega),
+    ]
 }
 
 /// What was measured, without its noise.
@@ -244,6 +246,81 @@ fn one_slider_is_known_as_well_as_it_is_said() {
     );
 }
 
+/// A law that slips through in the last one or two of 40 points: wherever it may begin to among them χ² has a minimum, and derivatives at
+/// the nearest point tell far more of the law than the points do.
+fn is_not_known_better_than_it_is(
+    terms: &str,
+    law: &FirstLoading,
+    small: f64,
+    last_m: f64,
+    truths: &[(SliderParameter, f64)],
+) {
+    let (mut held, mut told, mut all) = (0, 0, 0);
+    let points = (0..40).map(|n| {
+        let amplitude = 2e-5 * (last_m / 2e-5).powf(f64::from(n) / 39.0);
+        point(law, small, amplitude)
+    });
+    let measured = Measured::Backbone(points.collect());
+    for seed in 0..60 {
+        let (_folder, study) = study_of(&measured, terms, seed, |tables| tables);
+        let (found, _) = identified_of(&study);
+        for &(parameter, truth) in truths {
+            let mut estimates = found.estimates.iter();
+            let own = estimates.find(|own| own.unknown == slider(parameter));
+            let own = own.unwrap();
+            all += 1;
+            if !own.standard_deviation.is_finite() {
+                continue;
+            }
+            // all but the exponent are searched as logarithms
+            let z = match parameter {
+                SliderParameter::Exponent => (own.free_value - truth) / own.standard_deviation,
+                _ => (own.free_value / truth).ln() / (own.standard_deviation / own.free_value),
+            };
+            assert!(z.abs() < 4.0, "{seed} {parameter:?}: {z}");
+            held += usize::from((own.interval_95[0]..=own.interval_95[1]).contains(&truth));
+            told += 1;
+        }
+    }
+    println!("intervals hold {held} of {told}");
+    assert!(10 * held >= 9 * told, "{held} of {told}");
+    assert!(3 * told >= 2 * all, "{told} of {all}");
+}
+
+#[test]
+fn a_slip_that_hardly_shows_is_not_known_better_than_it_is() {
+    let (stiffness, slip_force) = (5e4, 4.0);
+    is_not_known_better_than_it_is(
+        "terms = [\"jenkins\"]\ncompare = false",
+        &move |u: f64| (stiffness * u).min(slip_force),
+        stiffness,
+        1.02 * slip_force / stiffness,
+        &[
+            (SliderParameter::Stiffness, stiffness),
+            (SliderParameter::SlipForce, slip_force),
+        ],
+    );
+}
+
+#[test]
+fn the_last_of_many_sliders_is_not_known_better_than_it_is() {
+    let (density, exponent, span, last) = (7.5e6, -0.4, 1.5e-4_f64, 1.2e4);
+    let law = iwan(density, exponent, span, last);
+    let end = density * span.powf(exponent + 1.0);
+    let stiffness = end / (exponent + 1.0) + last;
+    is_not_known_better_than_it_is(
+        "terms = [\"iwan\"]\ncompare = false",
+        &law,
+        stiffness,
+        1.02 * span,
+        &[
+            (SliderParameter::Stiffness, stiffness),
+            (SliderParameter::SlipForce, law(1.0)),
+            (SliderParameter::Exponent, exponent),
+        ],
+    );
+}
+
 #[test]
 fn small_motion_of_many_sliders_is_known_by_density_and_exponent() {
     let (density, exponent, span) = (1e7, -0.4, 2e-3_f64);
@@ -327,8 +404,9 @@ fn what_no_slider_has_come_to_is_not_identified_and_all_else_is() {
             (one.0 - all.0).abs() < 0.05 * one.1,
             "{name}: {one:?} {all:?}"
         );
+        // a slip in the last points may still explain a little
         assert!(
-            (all.1 / one.1 - 1.0).abs() < 0.05,
+            (-0.05..0.1).contains(&(all.1 / one.1 - 1.0)),
             "{name}: {one:?} {all:?}"
         );
     }

@@ -202,19 +202,20 @@ impl LapResponse {
         })
     }
 
-    /// Standard deviation of the file's stiffness, which is less by that of a law that slips, and half its interval of 95 %.
+    /// Standard deviation of the file's stiffness, which is less by that of a law that slips, and half its interval of 95 %. Where the
+    /// data do not tell the law's part, it stands as the file has it.
     fn stiffness_deviations(&self, base: &Values) -> [f64; 2] {
         let slider = base.slider;
-        let by = |unknown: ResponseUnknown| match (unknown, slider) {
+        let by = |own: &Estimate| match (own.unknown, slider) {
             (ResponseUnknown::JointStiffness, _) => 1.0,
+            _ if !own.standard_deviation.is_finite() => 0.0,
             (ResponseUnknown::Slider(parameter), Some(slider)) => {
                 let index = slider.index(parameter);
                 index.map_or(0.0, |index| -slider.stiffness_by_parameters()[index])
             }
             _ => 0.0,
         };
-        let by = self.estimates.iter().map(|estimate| by(estimate.unknown));
-        let by = DVector::from_iterator(self.estimates.len(), by);
+        let by = DVector::from_iterator(self.estimates.len(), self.estimates.iter().map(by));
         let deviation = by.dot(&(&self.covariance * &by)).sqrt();
         [deviation, self.quantile * deviation]
     }

@@ -317,12 +317,17 @@ impl LapResponse {
         }
     }
 
-    /// The standard deviation of an unknown; zero of what is known.
+    /// The standard deviation of an unknown; zero of what is known, and of what the data say nothing of.
     #[must_use]
     pub fn deviation(&self, unknown: ResponseUnknown) -> f64 {
-        let mut unknowns = self.model.unknowns.iter();
-        let place = unknowns.position(|own| *own == unknown);
-        place.map_or(0.0, |place| self.covariance[(place, place)].sqrt())
+        let mut estimates = self.estimates.iter();
+        let deviation = estimates.find(|own| own.unknown == unknown);
+        let deviation = deviation.map_or(0.0, |own| own.standard_deviation);
+        if deviation.is_finite() {
+            deviation
+        } else {
+            0.0
+        }
     }
 }
 

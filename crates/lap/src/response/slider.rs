@@ -108,7 +108,7 @@ impl SliderParameter {
 
 /// What a law that slips has for values.
 ///
-/// Its unknowns are logarithms: of K_T and F_S for one slider; for Iwan's law of the stiffness that is lost at the `reference_m`,
+/// Its unknowns are logarithms: of K_T and F_S/K_T (m) for one slider; for Iwan's law of the stiffness that is lost at the `reference_m`,
 /// of χ + 1, of φ_max over the reference, and of β.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliderValues {
@@ -141,7 +141,7 @@ impl SliderValues {
         Self {
             slider: Slider::Jenkins,
             reference_m,
-            logs: [stiffness.ln(), slip_force.ln(), 0.0, 0.0],
+            logs: [stiffness.ln(), (slip_force / stiffness).ln(), 0.0, 0.0],
         }
     }
 
@@ -175,7 +175,7 @@ impl SliderValues {
             Slider::Jenkins => {
                 return Valued::Jenkins(Jenkins {
                     stiffness: first.exp(),
-                    slip_force: second.exp(),
+                    slip_force: (first + second).exp(),
                 });
             }
             Slider::MicroSlip => (N::from(BEYOND), N::ZERO),
@@ -325,7 +325,7 @@ impl SliderValues {
 pub(super) struct ClosedLoops(Loops);
 
 enum Loops {
-    /// Of one slider: k (N/m) and h (N).
+    /// Of one slider: k (N/m) and h/k (m).
     One([f64; 2]),
     /// Of many.
     Many(ManySliders),
@@ -352,8 +352,8 @@ impl Slipping {
 }
 
 /// One slider k, h in its closed loop: z − k.
-fn of_one_slider([stiffness, slip_force]: [f64; 2], amplitude_m: f64) -> Slipping {
-    let part = slip_force / (stiffness * amplitude_m);
+fn of_one_slider([stiffness, slips_at_m]: [f64; 2], amplitude_m: f64) -> Slipping {
+    let part = slips_at_m / amplitude_m;
     if part >= 1.0 {
         return Slipping::NONE;
     }
@@ -368,7 +368,7 @@ fn of_one_slider([stiffness, slip_force]: [f64; 2], amplitude_m: f64) -> Slippin
     Slipping {
         value,
         by_log_amplitude: -by_part,
-        by_unknown: [value - by_part, by_part, Complex64::ZERO, Complex64::ZERO],
+        by_unknown: [value, by_part, Complex64::ZERO, Complex64::ZERO],
     }
 }
 

@@ -1,14 +1,16 @@
 //! Where the search starts: for a relative mode a linear fit of force over response, otherwise the resonances of the lowest level.
 
+mod slipping;
+
 use bolted_joint_dynamics::{Polynomial, law::Term};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use self::slipping::with_slider;
 use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun};
 use super::fit::{Data, Fit, Kind, Start, fit, glanced};
 use super::model::{Model, ResponseUnknown, Values};
-use super::slider::{Slider, SliderValues};
 use super::study::Noise;
 use super::terms::TermSet;
 use crate::error::LapError;
@@ -186,78 +188,6 @@ fn with_terms(model: &Model, data: &[SineLine], linear: Values) -> Vec<Values> {
         }
     }
     starts
-}
-
-/// Starts with a law that slips: it makes all or a part of the loss that is there at the largest amplitude, early or late.
-fn with_slider(model: &Model, data: Data<'_>, slider: Slider, starts: &[Values]) -> Vec<Values> {
-    let Some(first) = starts.first() else {
-        return Vec::new();
-    };
-    let of_lines = data.lines.iter().map(|line| {
-        let by_relative = line.displacement_m / model.relative_share().abs();
-        let amplitude = match model.sees_sum() {
-            true => model.relative_amplitude(first, line),
-            false => by_relative,
-        };
-        (amplitude, line.omega, first.relative_damping())
-    });
-    // C = 2ζωM of the relative mode, M = m/2
-    let of_backbone = data.points().map(|line| {
-        let ratio = line.damping_ratio.unwrap_or(0.0);
-        let damping = ratio * line.omega * first.mass;
-        (
-            line.amplitude_m,
-            line.omega,
-            damping.max(first.relative_damping()),
-        )
-    });
-    let largest = of_lines.chain(of_backbone);
-    let Some((reference_m, omega, damping)) = largest.max_by(|a, b| a.0.total_cmp(&b.0)) else {
-        return Vec::new();
-    };
-    let loss = (omega * damping).max(1e-4 * first.joint_stiffness.abs());
-    let laws = move |share: f64| -> Vec<SliderValues> {
-        let loss = share * loss;
-        let iwan = |exponent: f64, rest: [f64; 2]| {
-            // D/(πU²) = (4/π) K_l (χ+1)/((χ+2)(χ+3))
-            let part = (exponent + 1.0) / ((exponent + 2.0) * (exponent + 3.0));
-            let lost = 0.25 * std::f64::consts::PI * loss / part;
-            SliderValues::iwan(slider, lost, exponent, rest, reference_m)
-        };
-        match slider {
-            // D/(πU²) = (4h/πU)(1 − h/kU) is largest where it slips at U/2: k/π
-            Slider::Jenkins => [0.5, 0.1, 0.9]
-                .map(|part| {
-                    let stiffness = 0.25 * std::f64::consts::PI * loss / (part * (1.0 - part));
-                    let slip_force = part * stiffness * reference_m;
-                    SliderValues::jenkins(stiffness, slip_force, reference_m)
-                })
-                .to_vec(),
-            Slider::MicroSlip => [-0.2, -0.6, 0.3]
-                .map(|exponent| iwan(exponent, [1.0, 1.0]))
-                .to_vec(),
-            Slider::Iwan => [(-0.3, 1.5), (-0.6, 1.5), (-0.3, 0.5), (0.2, 0.8)]
-                .map(|(exponent, span)| iwan(exponent, [span, 0.3]))
-                .to_vec(),
-        }
-    };
-    let mut all = Vec::new();
-    for start in starts {
-        for share in [0.9, 0.4] {
-            for law in laws(share) {
-                let stays = 1.0 - share;
-                let mut own = *start;
-                if model.unknowns.contains(&ResponseUnknown::JointDamping) {
-                    own.joint_damping *= stays;
-                }
-                // the joint has at least the stiffness of the law, as long as the search has not found it
-                let is_within = law.stiffness() < own.joint_stiffness;
-                own.slider = Some(law);
-                all.extend(is_within.then_some(own));
-            }
-        }
-    }
-    all
 }
 
 /// z = F/x is linear in all numbers of a relative mode once the amplitude is taken as measured: one weighted least-squares problem.

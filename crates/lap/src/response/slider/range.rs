@@ -7,7 +7,7 @@ use super::{MOST, Slider, SliderValues};
 /// reference, and of β. Beyond, numbers of the law are no longer finite, and nothing that is measured tells one from another.
 const RANGE_OF_IWAN: [[f64; 2]; MOST] = [[-60.0, 60.0], [-7.0, 3.4], [-9.2, 9.2], [-30.0, 30.0]];
 
-/// The same of one slider: of K_T in N/m and F_S in N.
+/// The same of one slider: of K_T in N/m and F_S/K_T in m.
 const RANGE_OF_JENKINS: [[f64; 2]; MOST] = [[-60.0, 60.0], [-60.0, 60.0], [0.0, 0.0], [0.0, 0.0]];
 
 /// Unknowns of Iwan's law, as logarithms in their order, whose effects on a motion are told apart.
@@ -58,7 +58,7 @@ impl SliderValues {
     /// Displacement from which on all of it slips, m.
     pub(in crate::response) fn slips_at_m(&self) -> f64 {
         match self.slider {
-            Slider::Jenkins => (self.logs[1] - self.logs[0]).exp(),
+            Slider::Jenkins => self.logs[1].exp(),
             Slider::MicroSlip | Slider::Iwan => self.reference_m * self.logs[2].exp(),
         }
     }
@@ -70,9 +70,8 @@ impl SliderValues {
             Slider::Jenkins => {
                 // D = 4 F_S (A − F_S/K_T)
                 let of = |at_m: f64| at_m * (largest_m - at_m);
-                let stiffness = self.logs[0] + (of(self.slips_at_m()) / of(kink_m)).abs().ln();
-                own.logs[0] = stiffness;
-                own.logs[1] = stiffness + kink_m.ln();
+                own.logs[0] += (of(self.slips_at_m()) / of(kink_m)).abs().ln();
+                own.logs[1] = kink_m.ln();
             }
             Slider::MicroSlip | Slider::Iwan => own.logs[2] = (kink_m / self.reference_m).ln(),
         }

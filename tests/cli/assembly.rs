@@ -155,6 +155,62 @@ fn tables_of_an_assembly_s_responses_are_shown() {
     }
 }
 
+/// The joint lies between two outputs.
+#[test]
+fn it_is_said_where_a_joint_moves_further_than_it_was_observed_at() {
+    let bench = bench();
+    let joint = |observed: f64| {
+        let higher = format!("\"higher\": {{\"amplitude\": [{observed:e}]}}, \"friction\"");
+        JENKINS.replace("\"friction\"", &higher)
+    };
+    let between = ASSEMBLY.replace("tip = \"b/3:+Y\"", "foot = \"b/1:+Y\"");
+    let said = |observed: f64, response: &str| {
+        bench.write("j.joint.json", joint(observed));
+        bench.write("x.toml", format!("{between}{response}"));
+        let told = bench.done("respond x.toml -o o.csv").stderr;
+        let (_, rest) = told.split_once("warning: j1: y reaches ")?;
+        let (reached, rest) = rest.split_once(" m, beyond the ")?;
+        has(rest, &["m that the joint was observed at"]);
+        Some(reached.parse::<f64>().unwrap())
+    };
+    // of two columns, or of two pairs of columns
+    let of_table = |columns: [[&str; 2]; 2]| -> f64 {
+        let text = bench.text("o.csv");
+        let mut lines = text.lines();
+        let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let far = lines.map(|line| {
+            let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            let of = |name: &str| {
+                let is_it = |own: &&str| own.starts_with(&format!("{name} ["));
+                names.iter().position(|own| is_it(&own)).map(|n| row[n])
+            };
+            let part = |[one, other]: [&str; 2]| of(one).unwrap_or(0.0) - of(other).unwrap_or(0.0);
+            part(columns[0]).hypot(part(columns[1]))
+        });
+        far.fold(0.0, f64::max)
+    };
+    for (response, columns) in [
+        (
+            "kind = \"history\"\nduration = 0.1\nstep = 0.001\n[response.loads.push]\namplitude = 30\nfrequency = 30\n".to_owned(),
+            [["mid", "foot"], ["none", "none"]],
+        ),
+        (
+            // one harmonic moves round a circle
+            format!("kind = \"harmonic-balance\"\nfrom = 10\nto = 36\nharmonics = 1\n{LOADS}"),
+            [["mid real", "foot real"], ["mid imaginary", "foot imaginary"]],
+        ),
+    ] {
+        let reached = said(1e-12, &response).unwrap();
+        let expected = of_table(columns);
+        assert!((reached / expected - 1.0).abs() < 1e-3, "{reached} {expected}");
+        assert!(said(0.99 * expected, &response).is_some());
+        assert!(said(1.01 * expected, &response).is_none());
+    }
+    let backbone = "kind = \"backbone\"\nmode = 1\nof = \"mid\"\namplitude = [1e-7, 1e-5]\n";
+    assert!(said(1e-12, backbone).is_some());
+    assert!(said(1e-2, backbone).is_none());
+}
+
 #[test]
 fn a_matrix_market_file_is_told_from_an_archive() {
     let bench = bench();

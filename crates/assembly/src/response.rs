@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 
 use bolted_joint_dynamics::assembly::{AssemblySteps, TOLERANCE};
 use bolted_joint_study::{StudyError, StudyText};
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::error::AssemblyError;
 use crate::model::AssemblyModel;
 use crate::place::Channel;
+use crate::reached::Reached;
 use crate::tables::{ResponseKind, ResponseTable};
 
 /// Lines where nothing is said, and more than anybody draws.
@@ -373,7 +375,7 @@ fn load_place(
 
 impl AssemblyModel {
     /// Motions under loads, from rest: rows of time (s), loads, displacement and velocity of each output, energy stored, supplied
-    /// and dissipated (J). Between the rows the loads are straight.
+    /// and dissipated (J), and how far the joints move at the rows. Between the rows the loads are straight.
     ///
     /// # Errors
     /// [`AssemblyError::Grows`] where the motion leaves what is finite, [`AssemblyError::TooLong`] where 4096 parts of a step are
@@ -384,12 +386,15 @@ impl AssemblyModel {
         step_s: f64,
         loads: &[Option<LoadCourse>],
         progress: &dyn Fn(f64),
-    ) -> Result<Vec<Vec<f64>>, AssemblyError> {
+    ) -> Result<(Vec<Vec<f64>>, Reached), AssemblyError> {
         let equations = self.equations()?;
         let mut steps = AssemblySteps::new(&equations, step_s, TOLERANCE)
             .ok_or(AssemblyError::Grows { time_s: step_s })?;
         let mut underway = steps.at_rest();
         let outputs = self.output_rows();
+        let joints = self.joints.iter().map(|joint| self.relative_rows(joint));
+        let joints: Vec<DMatrix<f64>> = joints.collect();
+        let mut reached = Reached::default();
         let size = self.size();
         let count = (duration_s / step_s).round().max(1.0) as u64;
         let at = |time_s: f64| -> Vec<f64> {
@@ -403,11 +408,13 @@ impl AssemblyModel {
             let mut row = vec![time_s];
             row.extend(&now);
             let state = steps.coordinates().state(&underway);
+            let [displacement, velocity] = [0, size].map(|part| &state.motion[part..part + size]);
             for output in outputs.row_iter() {
-                for part in [0, size] {
-                    let motion = &state.motion[part..part + size];
-                    row.push(output.iter().zip(motion).map(|(own, q)| own * q).sum());
-                }
+                row.extend([displacement, velocity].map(|motion| along(output.iter(), motion)));
+            }
+            let relative = joints.iter().flat_map(|joint| joint.row_iter());
+            for (place, shape) in relative.enumerate() {
+                reached.include(place, along(shape.iter(), displacement));
             }
             row.extend([
                 steps.stored_energy_j(&state),
@@ -432,6 +439,11 @@ impl AssemblyModel {
             }
             progress(step as f64 / count as f64);
         }
-        Ok(rows)
+        Ok((rows, reached))
     }
+}
+
+/// The motion of a shape.
+fn along<'s>(shape: impl Iterator<Item = &'s f64>, motion: &[f64]) -> f64 {
+    shape.zip(motion).map(|(own, q)| own * q).sum()
 }

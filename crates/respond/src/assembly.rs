@@ -2,11 +2,12 @@
 //! picture.
 
 use bolted_joint_assembly::{
-    AssemblyError, AssemblyMode, AssemblyModel, Channel, ForcedPoint, FreePoint, Response,
+    AssemblyError, AssemblyMode, AssemblyModel, Channel, ForcedPoint, FreePoint, Reached, Response,
 };
 use bolted_joint_dynamics::DofKind;
 use bolted_joint_figures::{Drawn, ResponseCurve, ResponseFigure, ResponsePanel, Scale};
 
+use super::run::beyond_observed;
 use super::table::{Column, Role, csv};
 
 /// What was computed.
@@ -18,6 +19,7 @@ pub struct AssemblyAnswer {
     pub rows: Vec<Vec<f64>>,
     /// Modes of the linear assembly, of small motion about rest.
     pub modes: Vec<AssemblyMode>,
+    reached: Reached,
     panels: Vec<Panel>,
 }
 
@@ -47,8 +49,12 @@ impl AssemblyAnswer {
                 loads,
                 harmonics,
             } => {
-                let points = model.forced_response(loads, *ends_hz, *harmonics, progress)?;
-                Ok(Self::of_forced(model, modes, &points))
+                let (points, reached) =
+                    model.forced_response(loads, *ends_hz, *harmonics, progress)?;
+                Ok(Self {
+                    reached,
+                    ..Self::of_forced(model, modes, &points)
+                })
             }
             Response::Backbone {
                 mode,
@@ -56,8 +62,12 @@ impl AssemblyAnswer {
                 ends,
                 harmonics,
             } => {
-                let points = model.nonlinear_mode(*mode, *output, *ends, *harmonics, progress)?;
-                Ok(Self::of_backbone(&model.outputs[*output], modes, &points))
+                let (points, reached) =
+                    model.nonlinear_mode(*mode, *output, *ends, *harmonics, progress)?;
+                Ok(Self {
+                    reached,
+                    ..Self::of_backbone(&model.outputs[*output], modes, &points)
+                })
             }
             Response::Linear(span) => {
                 let frequency_hz = span.frequency_hz();
@@ -74,6 +84,7 @@ impl AssemblyAnswer {
                     columns,
                     rows: rows.collect(),
                     modes,
+                    reached: Reached::default(),
                     panels,
                 })
             }
@@ -82,12 +93,13 @@ impl AssemblyAnswer {
                 step_s,
                 loads,
             } => {
-                let rows = model.history(*duration_s, *step_s, loads, progress)?;
+                let (rows, reached) = model.history(*duration_s, *step_s, loads, progress)?;
                 let (columns, panels) = Self::motions(model);
                 Ok(Self {
                     columns,
                     rows,
                     modes,
+                    reached,
                     panels,
                 })
             }
@@ -121,6 +133,7 @@ impl AssemblyAnswer {
             columns,
             rows: points.iter().map(row).collect(),
             modes,
+            reached: Reached::default(),
             panels,
         }
     }
@@ -142,6 +155,7 @@ impl AssemblyAnswer {
             ],
             rows: points.iter().map(row).collect(),
             modes,
+            reached: Reached::default(),
             panels: vec![panel("frequency, Hz", 1), panel("damping ratio", 2)],
         }
     }
@@ -155,6 +169,7 @@ impl AssemblyAnswer {
             ],
             rows: modes.iter().map(row).collect(),
             modes,
+            reached: Reached::default(),
             panels: Vec::new(),
         }
     }
@@ -212,6 +227,16 @@ impl AssemblyAnswer {
             columns.push(column(name, "J", Role::Aside));
         }
         (columns, panels)
+    }
+
+    /// What the user should know: of the assembly, and where joints move further than they were observed at.
+    #[must_use]
+    pub fn warnings(&self, model: &AssemblyModel) -> Vec<String> {
+        let beyond = model.beyond_observed(&self.reached).into_iter().map(|own| {
+            let motion = format!("{}: {}", own.joint, own.dof);
+            beyond_observed(&motion, own.unit, [own.largest, own.observed])
+        });
+        model.warnings.iter().cloned().chain(beyond).collect()
     }
 
     /// As CSV.

@@ -359,10 +359,8 @@ impl RespondStudy {
                 let level = series.level.map_or_else(String::new, |level| {
                     format!(" at {level} {}", table.level_unit)
                 });
-                warnings.push(format!(
-                    "{}{level}: relative.{} reaches {largest:.3e} {unit}, beyond the {observed:.3e} {unit} that the joint was observed at",
-                    series.lap, row.name
-                ));
+                let motion = format!("{}{level}: relative.{}", series.lap, row.name);
+                warnings.push(beyond_observed(&motion, unit, [largest, observed]));
             }
         }
         warnings
@@ -394,6 +392,13 @@ impl RespondStudy {
             }
         }
     }
+}
+
+/// That a joint moves further than it was observed at.
+pub(super) fn beyond_observed(motion: &str, unit: &str, [largest, observed]: [f64; 2]) -> String {
+    format!(
+        "{motion} reaches {largest:.3e} {unit}, beyond the {observed:.3e} {unit} that the joint was observed at"
+    )
 }
 
 /// A unit over that of a load.

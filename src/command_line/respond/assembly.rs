@@ -51,14 +51,15 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
     let progress = Progress::of_share("responding");
     let answer = AssemblyAnswer::of(&model, response, &|share| progress.reached(share))?;
     drop(progress);
-    let drawing = Picture::drawn(picture, &model.name, text.text(), &model.warnings, || {
+    let warnings = answer.warnings(&model);
+    let drawing = Picture::drawn(picture, &model.name, text.text(), &warnings, || {
         answer.figure(&model.name)
     })?;
     write_file(output, answer.to_csv().as_bytes())?;
     if let Some((path, drawing)) = &drawing {
         write_file(path, drawing.as_bytes())?;
     }
-    warn(&model.warnings);
+    warn(&warnings);
     note(&model.notes);
     if arguments.json {
         let modes = answer.modes.iter().map(|mode| json!({ "frequency_hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio }));
@@ -70,7 +71,7 @@ pub(super) fn run(arguments: &RespondArguments, text: &StudyText) -> Result<(), 
                 "name": own.name, "modes": own.form.modes, "cut": own.form.cut, "coordinates": own.form.size(), "free": own.form.rigid(),
             })).collect::<Vec<_>>(),
             "modes": modes.collect::<Vec<_>>(),
-            "warnings": model.warnings,
+            "warnings": warnings,
             "notes": model.notes,
         });
         print(&serde_json::to_string_pretty(&value)?)?;

@@ -18,6 +18,7 @@ use num_complex::Complex64;
 
 use crate::error::AssemblyError;
 use crate::model::AssemblyModel;
+use crate::reached::Reached;
 use condensed::{At, Condensed, Dynamic};
 use follow::{Lost, follow, point};
 use forced::Forced;
@@ -59,7 +60,7 @@ pub struct FreePoint {
 
 impl AssemblyModel {
     /// The response to loads u(t) = Re(u e^{jωt}) (N, N·m, one for each input) from one frequency (Hz) to another, with odd
-    /// harmonics up to the highest.
+    /// harmonics up to the highest; and how far the joints that have laws move on the way.
     ///
     /// # Errors
     /// [`AssemblyError::NotBalanced`] where no solution is found, [`AssemblyError::CurveStuck`] and [`AssemblyError::CurveTooLong`]
@@ -70,7 +71,7 @@ impl AssemblyModel {
         [from_hz, to_hz]: [f64; 2],
         highest_harmonic: usize,
         progress: &dyn Fn(f64),
-    ) -> Result<Vec<ForcedPoint>, AssemblyError> {
+    ) -> Result<(Vec<ForcedPoint>, Reached), AssemblyError> {
         let problem = Problem::of(self, highest_harmonic)?;
         let forced = Forced {
             loads: DVector::from_row_slice(loads),
@@ -84,12 +85,13 @@ impl AssemblyModel {
         let found = follow(&forced, start, problem.size(), TAU * to_hz, progress);
         let points = found.map_err(|lost| no_farther(&lost, problem.size()))?;
         let all = points.iter().map(|unknowns| forced.outputs(unknowns));
-        all.collect::<Option<_>>()
-            .ok_or_else(|| not_balanced(to_hz))
+        let all = all.collect::<Option<_>>();
+        let all = all.ok_or_else(|| not_balanced(to_hz))?;
+        Ok((all, problem.reached(&points)))
     }
 
     /// The nonlinear mode that begins as the linear one of this number (from 0, of those that oscillate, ascending), from one
-    /// amplitude of an output's fundamental to another (m, rad).
+    /// amplitude of an output's fundamental to another (m, rad); and how far the joints that have laws move on the way.
     ///
     /// # Errors
     /// As [`AssemblyModel::forced_response`]; [`AssemblyError::NoMode`] where there is no such mode.
@@ -100,7 +102,7 @@ impl AssemblyModel {
         [from, to]: [f64; 2],
         highest_harmonic: usize,
         progress: &dyn Fn(f64),
-    ) -> Result<Vec<FreePoint>, AssemblyError> {
+    ) -> Result<(Vec<FreePoint>, Reached), AssemblyError> {
         let problem = Problem::of(self, highest_harmonic)?;
         let modes = self.modes()?;
         let oscillating = modes
@@ -131,7 +133,7 @@ impl AssemblyModel {
             frequency_hz: own[size] / TAU,
             damping_ratio: own[size + 1],
         };
-        Ok(points.iter().map(point).collect())
+        Ok((points.iter().map(point).collect(), problem.reached(&points)))
     }
 }
 
@@ -280,6 +282,19 @@ impl<'m> Problem<'m> {
         let count = self.condensed.laws.len();
         let own = DVector::from_fn(count, |dof, _| self.phasor(forces, dof, harmonic));
         linear.at[harmonic].outputs(&own)
+    }
+
+    /// How far the joints' DOFs that have laws move at points of a curve.
+    fn reached(&self, points: &[DVector<f64>]) -> Reached {
+        let size = self.sampling.size();
+        let mut reached = Reached::default();
+        for point in points {
+            let of_dofs = point.as_slice().chunks_exact(size);
+            for ((place, _), motion) in self.condensed.laws.iter().zip(of_dofs) {
+                reached.include(*place, self.sampling.largest(motion));
+            }
+        }
+        reached
     }
 
     /// The largest of the motion's coefficients.

@@ -78,8 +78,9 @@ fn side_by_side() -> AssemblyModel {
 
 fn forced(model: &AssemblyModel, hertz: f64, harmonics: usize, load: Complex64) -> ForcedPoint {
     let ends = [hertz, hertz + 0.1];
-    let points = model.forced_response(&[load], ends, harmonics, &|_| ());
-    points.unwrap().swap_remove(0)
+    let found = model.forced_response(&[load], ends, harmonics, &|_| ());
+    let (mut points, _) = found.unwrap();
+    points.swap_remove(0)
 }
 
 /// Law, frequency in Hz, fundamentals of tip and root and the tip's largest displacement in m: tests/assembly/bouc_wen.py.
@@ -133,7 +134,7 @@ fn laws_side_by_side_move_as_in_time() {
             until_s: f64::INFINITY,
         };
         let duration = PERIODS as f64 / hertz;
-        let rows = model
+        let (rows, reached) = model
             .history(duration, step, &[Some(load)], &|_| ())
             .unwrap();
         // of the straight pieces of the sine: (sin x/x)² with x = π/N

@@ -6,6 +6,7 @@ use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun, Use};
 use super::decay::{Effort, Following, InTime, corrected, fitted, followed};
 use super::fit::{self, Data, Fit, Kind};
+use super::kinks::at_kinks;
 use super::model::Model;
 use super::passive::Limit;
 use super::reliability::FEW_STARTS;
@@ -65,7 +66,8 @@ pub(super) struct Candidate {
     pub(super) harmonics: usize,
     /// Backbones and decays as they were fitted.
     pub(super) backbones: Vec<BackboneRun>,
-    bic: f64,
+    /// By how much the deviation of each unknown, as it is searched, has to be raised.
+    pub(super) raised: Vec<f64>,
 }
 
 impl Candidate {
@@ -75,6 +77,13 @@ impl Candidate {
             harmonics: self.harmonics,
             ..study.model(&self.terms)
         }
+    }
+
+    /// Schwarz's criterion: −2 ln L + p ln n; a limit takes an unknown away.
+    fn bic(&self, is_stated: bool) -> f64 {
+        let count = (self.fit.degrees_of_freedom + self.fit.information.nrows()) as f64;
+        let unknowns = self.fit.information.nrows() - self.fit.at_limits.len();
+        deviance(&self.fit, is_stated) + unknowns as f64 * count.ln()
     }
 }
 
@@ -117,20 +126,18 @@ pub(super) fn choose(
     let mut failure = None;
     for terms in all {
         match candidate(study, &runs, &backbones, terms) {
-            Ok(candidate) => candidates.push(candidate),
+            Ok(candidate) => candidates.push(at_kinks(study, candidate)),
             Err(error) => failure = Some(failure.unwrap_or(error)),
         }
     }
-    let least = candidates
-        .iter()
-        .map(|candidate| candidate.bic)
-        .fold(f64::INFINITY, f64::min);
+    let bic = |candidate: &Candidate| candidate.bic(study.noise.is_stated);
+    let least = candidates.iter().map(bic).fold(f64::INFINITY, f64::min);
     let comparison = candidates.iter().map(|candidate| ModelComparison {
         terms: candidate.terms.clone(),
         unknowns: candidate.fit.information.nrows() - candidate.fit.at_limits.len(),
         reduced_chi_squared: candidate.fit.chi_squared
             / candidate.fit.degrees_of_freedom.max(1) as f64,
-        bic_difference: candidate.bic - least,
+        bic_difference: bic(candidate) - least,
         is_passive: candidate.free.is_none(),
         price: price(
             &candidate.fit,
@@ -140,7 +147,7 @@ pub(super) fn choose(
         held: candidate.fit.at_limits.iter().map(|at| at.limit).collect(),
     });
     let comparison: Vec<ModelComparison> = comparison.collect();
-    candidates.sort_by(|one, other| one.bic.total_cmp(&other.bic));
+    candidates.sort_by(|one, other| bic(one).total_cmp(&bic(other)));
     let chosen = match &study.terms {
         Some(own) => candidates.iter().position(|one| one.terms == *own),
         None => (!candidates.is_empty()).then_some(0),
@@ -261,11 +268,7 @@ fn of_another_law(
         .into_iter()
         .partition(|one| one.terms.terms().is_empty());
     let likely = polynomials.into_iter().take(MOST_POLYNOMIALS).chain(alone);
-    let of_samples = |candidate: &Candidate| {
-        let count = (candidate.fit.degrees_of_freedom + candidate.fit.information.nrows()) as f64;
-        let unknowns = candidate.fit.information.nrows() - candidate.fit.at_limits.len();
-        deviance(&candidate.fit, study.noise.is_stated) + unknowns as f64 * count.ln()
-    };
+    let of_samples = |candidate: &Candidate| candidate.bic(study.noise.is_stated);
     let best = |candidates: Vec<Candidate>| {
         let fitted = candidates.into_iter().map(|one| in_time(study, one, false));
         let fitted = fitted.filter(|one| one.in_time == InTime::Fitted);
@@ -366,14 +369,10 @@ fn candidate(
             free.filter(|free| free.chi_squared < fit.chi_squared)
         }
     };
-    let count = (fit.degrees_of_freedom + fit.information.nrows()) as f64;
-    // Schwarz adds p ln n; a limit takes an unknown away
-    let unknowns = fit.information.nrows() - fit.at_limits.len();
     Ok(Candidate {
         harmonics: 1,
         instead_of: None,
         terms,
-        bic: deviance(&fit, noise.is_stated) + unknowns as f64 * count.ln(),
         first,
         corrected: fit.clone(),
         fit,
@@ -382,5 +381,6 @@ fn candidate(
         unrest: 0.0,
         in_time: InTime::NoDecay,
         backbones: own,
+        raised: vec![1.0; model.unknowns.len()],
     })
 }

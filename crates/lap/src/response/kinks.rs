@@ -11,10 +11,10 @@ use nalgebra::{DMatrix, DVector};
 use super::backbone::BackboneRun;
 use super::choice::Candidate;
 use super::data::{SineLine, Use};
-use super::decay::InTime;
 use super::fit::{self, Data, Fit, Kind};
 use super::model::{Model, ResponseUnknown, Values};
 use super::slider::{Slider, SliderParameter};
+use super::start::searched;
 use super::study::{LapResponseStudy, Noise};
 use super::told::Searched;
 
@@ -50,14 +50,14 @@ const LOOKED_AT: f64 = 12.2;
 /// By so much χ² has to fall for an estimate to be none.
 const LOWER: f64 = 0.5;
 
-/// The candidate, or a better estimate of its law, and by how much the deviation of each of its unknowns, as it is searched, has to be
+/// The candidate, or a better estimate of its law, with how much the deviation of each of its unknowns, as it is searched, has to be
 /// raised.
-pub(super) fn at_kinks(study: &LapResponseStudy, mut chosen: Candidate) -> (Candidate, Vec<f64>) {
+pub(super) fn at_kinks(study: &LapResponseStudy, mut chosen: Candidate) -> Candidate {
     let model = chosen.model(study);
     let mut raised = vec![1.0; model.unknowns.len()];
     // decays pass every amplitude, and what is read of them has no such corners
-    if model.terms.slider().is_none() || chosen.in_time != InTime::NoDecay {
-        return (chosen, raised);
+    if model.terms.slider().is_none() || chosen.backbones.iter().any(|run| run.errors.is_some()) {
+        return chosen;
     }
     let runs = study.sines.iter().filter(|run| run.used_for == Use::Fit);
     let lines: Vec<SineLine> = runs.flat_map(|run| run.lines.iter().copied()).collect();
@@ -76,7 +76,7 @@ pub(super) fn at_kinks(study: &LapResponseStudy, mut chosen: Candidate) -> (Cand
         let Some(lower) = lower.filter(|_| restart < RESTARTS) else {
             break;
         };
-        let again = |kind| fit::fit(&model, data, &study.noise, &lower.values, kind);
+        let again = |kind| searched(&model, data, &study.noise, &lower.values, kind);
         let Ok(fit) = again(Kind::Passive) else { break };
         if fit.chi_squared >= chosen.fit.chi_squared {
             break;
@@ -87,9 +87,12 @@ pub(super) fn at_kinks(study: &LapResponseStudy, mut chosen: Candidate) -> (Cand
         };
         chosen.free = free.filter(|free| free.chi_squared < fit.chi_squared);
         chosen.fit = fit;
+        // those before came to another
+        chosen.starts = (chosen.starts.0 + 1, 1);
     }
     chosen.backbones = runs;
-    (chosen, raised)
+    chosen.raised = raised;
+    chosen
 }
 
 /// By how much the deviation of each unknown, as it is searched, has to be raised about an estimate with this covariance, by 1 at least;
@@ -138,7 +141,7 @@ fn along(
         if !is_start {
             continue;
         }
-        let Ok(found) = fit::fit(model, data, noise, &values, Kind::Free) else {
+        let Ok(found) = searched(model, data, noise, &values, Kind::Free) else {
             continue;
         };
         if rise(&found) < NORMAL_975.powi(2) {

@@ -158,6 +158,15 @@ impl Values {
         })
     }
 
+    /// The same where Iwan's law has next to nothing that slips last, with a part of it; `None` of others.
+    pub(super) fn with_a_last_slider(&self) -> Option<Self> {
+        let slider = self.slider?.with_a_last_slider()?;
+        Some(Self {
+            slider: Some(slider),
+            ..*self
+        })
+    }
+
     /// The value of an unknown, zero of what is not there.
     #[must_use]
     pub fn of(&self, unknown: ResponseUnknown) -> f64 {

@@ -10,7 +10,6 @@ use super::choice::{self, ModelComparison};
 use super::data::{SineRun, Use};
 use super::decay::InTime;
 use super::fit::Fit;
-use super::kinks::at_kinks;
 use super::model::{Model, Motion, ResponseUnknown, Values};
 use super::odd::{self, Misfit};
 use super::prediction::{
@@ -101,8 +100,8 @@ impl LapResponse {
     /// [`LapError`] if the data determine no model, or if a file has vanished meanwhile.
     pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, LapError> {
         let (chosen, comparison) = choice::choose(study)?;
-        let (chosen, raised) = at_kinks(study, chosen);
         let model = chosen.model(study);
+        let raised = chosen.raised;
         let (fit, free) = (chosen.fit, chosen.free);
         // Errors are those of the free estimate: what the limits add to the residual is no noise.
         let base = free.as_ref().unwrap_or(&fit);

@@ -48,10 +48,11 @@ pub(super) fn best(
     if starts.is_empty() {
         starts.extend(super::backbone::start(model, data, known));
     }
-    if let Some(slider) = model.terms.slider() {
-        starts = with_slider(model, data, slider, &starts);
-    }
-    let follow = |start: Start<'_>| fit(model, data, noise, start, kind);
+    let mut starts: Vec<(usize, Values)> = match model.terms.slider() {
+        Some(slider) => with_slider(model, data, slider, &starts),
+        None => starts.into_iter().map(|start| (0, start)).collect(),
+    };
+    let follow = |start: Start<'_>| searched(model, data, noise, start, kind);
     let mut fits = Vec::new();
     let mut followed = 0;
     let mut end = |ended: Result<Fit, LapError>, fits: &mut Vec<Fit>| {
@@ -64,13 +65,24 @@ pub(super) fn best(
         Ok(())
     };
     if starts.len() > MOST_STARTS {
-        let glance = |start: &Values| glanced(model, data, noise, start, kind).ok();
-        let mut seen: Vec<Fit> = starts.iter().filter_map(glance).collect();
-        seen.retain(|fit| fit.chi_squared.is_finite());
-        seen.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-        let (best, others) = seen.split_at(seen.len().min(MOST_STARTS));
-        for seen in best {
-            end(follow(seen.into()), &mut fits)?;
+        let glance = |(kind_of_start, start): (usize, Values)| {
+            let seen = glanced(model, data, noise, &start, kind).ok()?;
+            seen.chi_squared
+                .is_finite()
+                .then_some((kind_of_start, seen))
+        };
+        let mut seen: Vec<(usize, Fit)> = starts.drain(..).filter_map(glance).collect();
+        seen.sort_by(|(_, a), (_, b)| a.chi_squared.total_cmp(&b.chi_squared));
+        let mut kinds = Vec::new();
+        let mut others = Vec::new();
+        for (rank, (kind_of_start, seen)) in seen.iter().enumerate() {
+            // the best of all, and of each kind: few steps do not tell which of them leads farther
+            let is_first = !kinds.contains(kind_of_start);
+            kinds.push(*kind_of_start);
+            match rank < MOST_STARTS || is_first {
+                true => end(follow(seen.into()), &mut fits)?,
+                false => others.push(seen),
+            }
         }
         for seen in others {
             if agreeing(model, &fits) < 2 {
@@ -78,7 +90,7 @@ pub(super) fn best(
             }
         }
     } else {
-        for start in &starts {
+        for (_, start) in &starts {
             end(follow(start.into()), &mut fits)?;
         }
     }
@@ -87,6 +99,24 @@ pub(super) fn best(
         .into_iter()
         .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     Ok((best.ok_or(LapError::NoEstimate)?, followed, count))
+}
+
+/// The fit from a start, and from a law of which something slips last where the first left nothing of that: a step too far to where
+/// nothing is told of it, from which no further step leads back.
+pub(super) fn searched<'a>(
+    model: &Model,
+    data: Data<'_>,
+    noise: &Noise,
+    start: impl Into<Start<'a>>,
+    kind: Kind,
+) -> Result<Fit, LapError> {
+    let first = fit(model, data, noise, start, kind)?;
+    let Some(again) = first.values.with_a_last_slider() else {
+        return Ok(first);
+    };
+    let again = fit(model, data, noise, &again, kind).ok();
+    let again = again.filter(|again| again.chi_squared < first.chi_squared);
+    Ok(again.unwrap_or(first))
 }
 
 /// How many fits are where the best is, and as good.

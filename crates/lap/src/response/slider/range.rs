@@ -13,6 +13,10 @@ const RANGE_OF_JENKINS: [[f64; 2]; MOST] = [[-60.0, 60.0], [-60.0, 60.0], [0.0, 
 /// Unknowns of Iwan's law, as logarithms in their order, whose effects on a motion are told apart.
 const MODERATE: [[f64; 2]; MOST] = [[-60.0, 60.0], [-0.9, 0.1], [-0.5, 0.5], [-1.6, 0.5]];
 
+/// β of Iwan's law that shows nothing, and one that does.
+const NEXT_TO_NONE: f64 = 1e-3;
+const SOME: f64 = 0.2;
+
 impl SliderValues {
     /// Brings the unknowns back into the range that they are searched in.
     pub(in crate::response) fn keep_in_range(&mut self) {
@@ -37,6 +41,18 @@ impl SliderValues {
             *log = log.clamp(least, most);
         }
         own
+    }
+
+    /// Iwan's law of the same stiffness with a part of it that slips last, where that is next to nothing; `None` of others.
+    pub(in crate::response) fn with_a_last_slider(&self) -> Option<Self> {
+        let is_next_to_none = self.slider == Slider::Iwan && self.logs[3] < NEXT_TO_NONE.ln();
+        is_next_to_none.then(|| {
+            let mut own = *self;
+            own.logs[3] = SOME.ln();
+            // K_T = K_l (1 + β)
+            own.logs[0] -= SOME.ln_1p();
+            own
+        })
     }
 
     /// The same law by unknowns about a larger amplitude, m. That of small motion then ends farther out.

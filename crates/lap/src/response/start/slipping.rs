@@ -25,20 +25,23 @@ const PLACES: [(f64, f64); 6] = [
 /// β of Iwan's law.
 const RATIO: f64 = 0.3;
 
-/// The starts, each with laws beside its spring.
+/// The starts, each with laws beside its spring, and the place of the law among those that are tried.
 pub(super) fn with_slider(
     model: &Model,
     data: Data<'_>,
     slider: Slider,
     starts: &[Values],
-) -> Vec<Values> {
+) -> Vec<(usize, Values)> {
     let Some((reference_m, loss)) = largest(model, data, starts) else {
         return Vec::new();
     };
     let mut all = Vec::new();
     for start in starts {
         for share in SHARES {
-            for law in laws(slider, share * loss, reference_m) {
+            for (place, law) in laws(slider, share * loss, reference_m)
+                .into_iter()
+                .enumerate()
+            {
                 let mut own = *start;
                 if model.unknowns.contains(&ResponseUnknown::JointDamping) {
                     own.joint_damping *= 1.0 - share;
@@ -46,7 +49,7 @@ pub(super) fn with_slider(
                 // the joint has at least the stiffness of the law, as long as the search has not found it
                 let is_within = law.stiffness() < own.joint_stiffness;
                 own.slider = Some(law);
-                all.extend(is_within.then_some(own));
+                all.extend(is_within.then_some((place, own)));
             }
         }
     }

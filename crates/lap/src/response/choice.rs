@@ -9,7 +9,7 @@ use super::fit::{self, Data, Fit, Kind};
 use super::kinks::at_kinks;
 use super::model::Model;
 use super::passive::Limit;
-use super::reliability::FEW_STARTS;
+use super::reliability::{ABSURD, FEW_STARTS};
 use super::start;
 use super::study::LapResponseStudy;
 use super::terms::TermSet;
@@ -281,7 +281,8 @@ fn of_another_law(
     })
 }
 
-/// The candidate with all harmonics that the study asks for.
+/// The candidate with all harmonics that the study asks for; with one where the law is not that of the data: no other harmonic mends
+/// that, and its motions far from what was measured may take minutes to balance.
 fn refined(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) -> Candidate {
     let model = Model {
         harmonics: study.harmonics,
@@ -291,7 +292,8 @@ fn refined(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) ->
         .iter()
         .flat_map(|run| run.lines.iter().copied())
         .collect();
-    if model.harmonics == 1 || lines.is_empty() || model.terms.slider().is_some() {
+    let is_wrong = candidate.fit.reduced_chi_squared() > ABSURD;
+    if model.harmonics == 1 || lines.is_empty() || model.terms.slider().is_some() || is_wrong {
         return candidate;
     }
     let backbones = candidate.backbones.clone();

@@ -25,6 +25,8 @@ const MOST_STARTS: usize = 4;
 /// Standard deviations within which two searches came to the same estimate: where a law has a corner each point of the data
 /// near it may make a minimum of its own.
 const AGREES: f64 = 2.0;
+/// Deviations of χ² within which noise explains it.
+const BY_CHANCE: f64 = 2.0;
 /// χ² per degree of freedom below which there is rounding.
 const ROUNDING: f64 = 1e-6;
 
@@ -85,7 +87,7 @@ pub(super) fn best(
             }
         }
         for seen in others {
-            if agreeing(model, &fits) < 2 {
+            if agreeing(model, &fits) < 2 && !is_explained(noise, &fits) {
                 end(follow(seen.into()), &mut fits)?;
             }
         }
@@ -117,6 +119,15 @@ pub(super) fn searched<'a>(
     let again = fit(model, data, noise, &again, kind).ok();
     let again = again.filter(|again| again.chi_squared < first.chi_squared);
     Ok(again.unwrap_or(first))
+}
+
+/// Whether the best leaves no more than the noise that is stated: then no other can be much better.
+fn is_explained(noise: &Noise, fits: &[Fit]) -> bool {
+    noise.is_stated
+        && fits.iter().any(|fit| {
+            let freedom = fit.degrees_of_freedom as f64;
+            fit.chi_squared < freedom + BY_CHANCE * (2.0 * freedom).sqrt()
+        })
 }
 
 /// How many fits are where the best is, and as good.

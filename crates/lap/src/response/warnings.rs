@@ -8,6 +8,7 @@ use super::decay::{InTime, NotInTime};
 use super::kinks::of_few_beyond;
 use super::plausible;
 use super::prediction::BackbonePrediction;
+use super::reliability::ABSURD;
 use super::result::LapResponse;
 use super::study::{LapResponseStudy, NoiseIs};
 
@@ -62,8 +63,12 @@ impl LapResponse {
         }
         let is_of_one = self.fit.values.slider.is_none();
         if is_of_one && self.model.harmonics < study.harmonics && !study.sines.is_empty() {
+            let why = match self.fit.reduced_chi_squared() > ABSURD {
+                true => "the law is too far from the data for others to tell",
+                false => "with others it did not converge",
+            };
             warnings.push(format!(
-                "the estimate is that of one harmonic: with {} harmonics it did not converge",
+                "the estimate is that of one harmonic, not of {}: {why}",
                 study.harmonics
             ));
         }

@@ -12,10 +12,10 @@ mod slopes;
 mod whiteness;
 
 use std::borrow::Cow;
-use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::fmt;
-use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use self::search::{Run, Search, State};
 use super::motion::{Grid, Release, sampled};
@@ -183,7 +183,7 @@ pub(in crate::response) fn fitted(
         let moderate = read.values.moderate();
         std::iter::once(read.values).chain(moderate)
     });
-    let left = Cell::new(of_each);
+    let left = AtomicUsize::new(of_each);
     // what slips only before the first point that is read has left no trace there
     let scan = || scan::starts((study, model), runs, &alone, &left);
     let (first, confirm) = match effort {
@@ -192,7 +192,7 @@ pub(in crate::response) fn fitted(
     };
     let last = std::iter::once_with(|| match effort {
         Effort::Whole { .. } => {
-            left.set(of_each);
+            left.store(of_each, Ordering::Relaxed);
             scan()
         }
         Effort::Shared => Vec::new(),
@@ -208,7 +208,7 @@ pub(in crate::response) fn fitted(
             continue;
         }
         if effort != Effort::Shared {
-            left.set(of_each);
+            left.store(of_each, Ordering::Relaxed);
         }
         let start = match Start::of((study, model), values, &alone, &left) {
             Err(NotInTime::Lost) => continue,
@@ -273,7 +273,7 @@ impl<'a> Start<'a> {
         (study, model): (&'a LapResponseStudy, &'a Model),
         values: Values,
         runs: &'a [(&'a BackboneRun, Cow<'a, Recorded>)],
-        left: &'a Cell<usize>,
+        left: &'a AtomicUsize,
     ) -> Result<Self, NotInTime> {
         let read = runs.iter().map(|(run, _)| run.largest_m());
         let largest_m = read.fold(0.0, f64::max);
@@ -293,7 +293,7 @@ impl<'a> Start<'a> {
             let (grid, release) = begun(&values, run, record)?;
             followed.push(Run {
                 record,
-                beside: record.beside(grid.samples).map(Rc::new),
+                beside: record.beside(grid.samples).map(Arc::new),
                 grid,
                 plain: plain(run),
             });

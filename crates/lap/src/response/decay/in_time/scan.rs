@@ -4,7 +4,7 @@
 //! laws that slip at several parts of the release are tried on the first periods, beside the joint of the last ones.
 
 use std::borrow::Cow;
-use std::cell::Cell;
+use std::sync::atomic::AtomicUsize;
 
 use super::search::State;
 use super::{Start, farthest_m};
@@ -27,7 +27,7 @@ pub(super) fn starts(
     (study, model): (&LapResponseStudy, &Model),
     runs: &[&BackboneRun],
     alone: &[(&BackboneRun, Cow<'_, Recorded>)],
-    left: &Cell<usize>,
+    left: &AtomicUsize,
 ) -> Vec<Values> {
     let Some(slider) = model.terms.slider() else {
         return Vec::new();

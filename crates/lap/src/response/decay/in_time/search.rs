@@ -3,8 +3,8 @@
 //! Each step is a fit to the square forms of the records, within the limits of a passive joint. Derivatives are central
 //! differences, and hold for a few steps.
 
-use std::cell::Cell;
-use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -54,7 +54,7 @@ pub(super) struct Run<'a> {
     pub(super) record: &'a Recorded,
     pub(super) grid: Grid,
     /// An orthonormal basis of what errors of other modes are in all of its samples, and an offset.
-    pub(super) beside: Option<Rc<DMatrix<f64>>>,
+    pub(super) beside: Option<Arc<DMatrix<f64>>>,
     /// What of the run stays with its rows.
     pub(super) plain: BackboneRun,
 }
@@ -82,7 +82,7 @@ pub(super) struct Search<'a> {
     pub(super) noise: &'a Noise,
     pub(super) runs: Vec<Run<'a>>,
     /// Steps of motions that may still be taken.
-    pub(super) left: &'a Cell<usize>,
+    pub(super) left: &'a AtomicUsize,
 }
 
 /// A step that was taken.
@@ -153,8 +153,9 @@ impl Search<'_> {
         release: Release,
         run: &Run<'_>,
     ) -> Option<Course> {
-        self.left
-            .set(self.left.get().checked_sub(run.grid.steps())?);
+        let fewer = |left: usize| left.checked_sub(run.grid.steps());
+        let order = Ordering::Relaxed;
+        self.left.fetch_update(order, order, fewer).ok()?;
         let beside = run.beside.as_deref();
         Course::of(values, release, (run.record, beside), &run.grid)
     }

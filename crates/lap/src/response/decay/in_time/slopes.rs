@@ -3,6 +3,7 @@
 //! The release follows the unknowns, so that what is left of both is the information of the unknowns alone.
 
 use bolted_joint_dynamics::law::Term;
+use bolted_joint_identify::parallel;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::release::{self, Course};
@@ -30,6 +31,14 @@ pub(super) struct Slopes {
     information: DMatrix<f64>,
 }
 
+/// What a difference is taken by.
+#[derive(Clone, Copy)]
+enum By {
+    Unknown(ResponseUnknown),
+    /// So much of displacement (m) or time (s).
+    Release([f64; 2]),
+}
+
 impl Slopes {
     /// About a place; `None` where a motion near it is none of a decay.
     pub(super) fn about(
@@ -41,7 +50,7 @@ impl Slopes {
         let at = |values: &Values, release: Release| {
             search.course(values, release, run).map(|own| own.residual)
         };
-        let columns = search.model.unknowns.iter().map(|&unknown| {
+        let by_unknown = |unknown: ResponseUnknown| {
             let size = values
                 .clone()
                 .place(unknown)
@@ -69,22 +78,27 @@ impl Slopes {
                 step *= NEAR / size;
             }
             None
-        });
-        let columns: Vec<DVector<f64>> = columns.collect::<Option<_>>()?;
-        let [by_displacement, by_time] = release::steps(&course.release, &run.grid);
-        let of_release = [[by_displacement, 0.0], [0.0, by_time]].map(|change| {
+        };
+        let by_release = |change: [f64; 2]| {
             let [above, below] = [1.0, -1.0].map(|sign| {
                 let moved = release::moved(&course.release, change.map(|own| sign * own));
                 at(values, moved)
             });
             Some((above? - below?) / (2.0 * (change[0] + change[1])))
-        });
-        let [Some(by_displacement), Some(by_time)] = of_release else {
-            return None;
         };
+        let [by_displacement, by_time] = release::steps(&course.release, &run.grid);
+        let of_release = [[by_displacement, 0.0], [0.0, by_time]].map(By::Release);
+        let of_unknowns = search.model.unknowns.iter().copied().map(By::Unknown);
+        let all: Vec<By> = of_release.into_iter().chain(of_unknowns).collect();
+        let columns = parallel::map(&all, |by| match *by {
+            By::Unknown(unknown) => by_unknown(unknown),
+            By::Release(change) => by_release(change),
+        });
+        let columns: Vec<DVector<f64>> = columns.into_iter().collect::<Option<_>>()?;
+        let (of_release, of_unknowns) = columns.split_at_checked(of_release.len())?;
         Self::of(
-            DMatrix::from_columns(&columns),
-            DMatrix::from_columns(&[by_displacement, by_time]),
+            DMatrix::from_columns(of_unknowns),
+            DMatrix::from_columns(of_release),
         )
     }
 

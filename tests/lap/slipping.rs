@@ -321,6 +321,52 @@ fn the_last_of_many_sliders_is_not_known_better_than_it_is() {
     );
 }
 
+/// 40 µs turn phases by 1.5°, and look like a fifth less of damping. A law that is wrong has no delay.
+#[test]
+fn a_delay_of_all_responses_is_named_and_no_other() {
+    const LATE_S: f64 = 4e-5;
+    let law = |u: f64| (5e4 * u).min(4.0);
+    let Measured::Sines(levels) = sines(&law, 5e4) else {
+        panic!("no sines");
+    };
+    let late = |late_s: f64| {
+        let of_line = |&(hz, force, exact): &(f64, f64, Complex64)| {
+            let turned = exact * Complex64::from_polar(1.0, -TAU * hz * late_s);
+            (hz, force, turned)
+        };
+        let levels = levels.iter();
+        Measured::Sines(
+            levels
+                .map(|own| own.iter().map(of_line).collect())
+                .collect(),
+        )
+    };
+    for seed in 0..6 {
+        for (late_s, terms, is_late) in [
+            (LATE_S, "jenkins", true),
+            (-LATE_S, "jenkins", true),
+            (0.0, "jenkins", false),
+            (0.0, "k3", false),
+        ] {
+            let terms = format!("terms = [\"{terms}\"]\ncompare = false");
+            let (_folder, study) = study_of(&late(late_s), &terms, seed, |tables| tables);
+            let (found, _) = identified_of(&study);
+            let warnings = found.warnings(&study);
+            let said = warnings.iter().find_map(|own| {
+                let (_, rest) = own.split_once("all responses seem to be late by ")?;
+                rest.split_once(" ms")?.0.parse::<f64>().ok()
+            });
+            match is_late {
+                true => {
+                    let off = said.map(|ms| (1e-3 * ms / late_s - 1.0).abs());
+                    assert!(off.is_some_and(|off| off < 0.2), "{seed}: {warnings:?}");
+                }
+                false => assert_eq!(said, None, "{seed}: {warnings:?}"),
+            }
+        }
+    }
+}
+
 #[test]
 fn small_motion_of_many_sliders_is_known_by_density_and_exponent() {
     let (density, exponent, span) = (1e7, -0.4, 2e-3_f64);

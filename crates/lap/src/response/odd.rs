@@ -3,8 +3,11 @@
 //! A run in another unit draws the estimate towards itself, so that all runs seem to be off. Without it the others agree, and it
 //! stands far from what they have in common.
 
+mod late;
+
 use std::fmt;
 
+use self::late::Late;
 use super::backbone::BackboneRun;
 use super::data::{SineLine, SineRun, Use, wrapped};
 use super::fit::{self, Data, Fit, Kind, chi_squared_at};
@@ -30,6 +33,8 @@ pub(super) struct Misfit {
     pub(super) run: Option<OddRun>,
     /// A slip of all runs, and how many times the noise would be left without it.
     pub(super) slip: Option<(Slip, f64)>,
+    /// A delay of all responses.
+    late: Option<Late>,
 }
 
 /// A run that is not like the others.
@@ -82,7 +87,8 @@ impl Misfit {
                 slip.words
             )
         });
-        of_run.into_iter().chain(of_all).collect()
+        let of_late = self.late.map(|late| late.told());
+        of_run.into_iter().chain(of_all).chain(of_late).collect()
     }
 }
 
@@ -213,7 +219,11 @@ pub(super) fn misfit(study: &LapResponseStudy, model: &Model, estimate: &Fit) ->
         None => slip_of_all(&search, estimate),
         Some(_) => None,
     };
-    Misfit { run, slip }
+    let late = match (&run, &slip) {
+        (None, None) => late::of_all(&search, estimate),
+        _ => None,
+    };
+    Misfit { run, slip, late }
 }
 
 /// The runs that were fitted.

@@ -12,8 +12,10 @@ use super::reliability::ABSURD;
 use super::result::LapResponse;
 use super::study::{LapResponseStudy, NoiseIs};
 
-/// χ² per degree of freedom from which on a stated noise does not explain the residual.
-const TOO_LARGE: f64 = 1.5;
+/// χ² per degree of freedom up to which a known noise may explain the residual, as it is seldom known better than by a seventh, and from
+/// which on it does not; between them, where chance leads no farther than this many deviations.
+const TOO_LARGE: [f64; 2] = [1.3, 1.5];
+const BY_CHANCE: f64 = 5.0;
 /// The same where no noise was stated, so that a nominal one is compared with: three times its deviations.
 const FAR_TOO_LARGE: f64 = 9.0;
 /// χ² per degree of freedom below which a stated noise is more than there is.
@@ -231,9 +233,11 @@ impl LapResponse {
 
     /// Whether the residual is so much more than the noise that the law is in doubt.
     pub(super) fn is_far_from_noise(&self, study: &LapResponseStudy) -> bool {
+        let [least, most] = TOO_LARGE;
+        let freedom = self.fit.degrees_of_freedom.max(1) as f64;
         self.free_chi_squared()
             > match study.knows_noise() {
-                true => TOO_LARGE,
+                true => (1.0 + BY_CHANCE * (2.0 / freedom).sqrt()).clamp(least, most),
                 false => FAR_TOO_LARGE,
             }
     }

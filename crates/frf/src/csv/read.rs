@@ -208,7 +208,8 @@ pub fn read_csv_from(
         averages: options.averages_or(keys.averages),
         not_selected,
         skipped_functions: Vec::new(),
-        skipped_datasets: 0,
+        skipped_datasets: Vec::new(),
+        coherence_files: Vec::new(),
         statements,
         taken: Vec::new(),
     })

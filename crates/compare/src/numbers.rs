@@ -5,7 +5,7 @@ use bolted_joint_joint::{Friction, JointFile, LawError, unit};
 
 /// Half an interval of 95 % in standard deviations.
 pub const HALF: f64 = 1.959_963_984_540_054;
-/// Of a difference a value is at least this part, if the difference is to be told as a part of the value.
+/// Of a difference a value without a deviation is at least this part, if the difference is to be told as a part of the value.
 const LEAST_PART: f64 = 0.01;
 
 /// One number of all joints.
@@ -38,15 +38,15 @@ impl Measured {
     }
 
     /// The difference of another value as a part of this one; `None` where this one may as well be zero: by its deviation, by that
-    /// of the other where it has none, or because it is next to nothing beside the difference.
+    /// of the other where it has none, or where neither has one because it is next to nothing beside the difference.
     fn part_of(&self, other: &Self) -> Option<f64> {
         let by = other.value - self.value;
         let own = Self {
             deviation: self.deviation.or(other.deviation),
             ..*self
         };
-        let is_much = self.value.abs() >= LEAST_PART * by.abs();
-        (own.is_told_from_zero() && is_much).then(|| by / self.value.abs())
+        let is_much = own.deviation.is_some() || own.value.abs() >= LEAST_PART * by.abs();
+        (own.is_told_from_zero() && is_much).then(|| by / own.value.abs())
     }
 }
 

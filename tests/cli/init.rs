@@ -289,11 +289,14 @@ fn a_file_called_by_both_parts_is_the_assembly() {
     has(&shown.stderr, &["magnitudes alone?"]);
 }
 
+/// Files with their points, what is told of them, and what stands in the study.
+type Case<'a> = (&'a [(&'a str, &'a str)], &'a str, &'a [&'a str]);
+
 #[test]
 fn a_part_without_a_file_is_a_beam_to_be_filled_in() {
     let three = "11:+Y 12:+Y 13:+Y";
     #[rustfmt::skip]
-    let cases: [(&[(&str, &str)], &str, &[&str]); 4] = [
+    let cases: [Case<'_>; 4] = [
         (&[("a.csv", "1:+Y 2:+Y 2:+RZ"), ("assembly.csv", three)], "part a is taken to be a.csv, part b a beam, the assembly assembly.csv",
          &["[a]                                   # the first part\nfrf = \"a.csv\"\njoint = { y = \"1:+Y\"", "[b]                                   # CHECK: the second part, of which there is no file",
            "points = { \"11:+Y\" = 0.0, \"12:+Y\" = 0.0, \"13:+Y\" = 0.0 }", "points = [\"11:+Y\", \"12:+Y\", \"13:+Y\"]   # CHECK: points of part b", "model = \"full\""]),

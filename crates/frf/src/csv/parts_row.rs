@@ -13,7 +13,7 @@ impl Names {
         let mut cells = Cells::separated_by(self.separator);
         let names = cells.names(row);
         let part = |cell: &&str| said(split_unit(cell).0).is_some_and(|(part, _)| part.is_some());
-        lacks && names.iter().skip(1).any(|cell| part(cell))
+        lacks && names.iter().skip(1).any(part)
     }
 
     /// Takes in that row. A function's name over its first column alone holds for those behind it as well.

@@ -59,6 +59,7 @@ pub use bolted_joint_convert as convert;
 pub use bolted_joint_cosimulation as cosimulation;
 pub use bolted_joint_draws as draws;
 pub use bolted_joint_export as export;
+pub use bolted_joint_files as files;
 pub use bolted_joint_files::TextFileError;
 pub use bolted_joint_frf as frf;
 pub use bolted_joint_frf::structure;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use bolted_joint::compare::{Comparison, Measured};
+use bolted_joint::compare::{Comparison, Difference, Measured, UNLIKELY};
 use bolted_joint::export::Timestamp;
 use bolted_joint::joint::JointFile;
 use bolted_joint::report::{comparison_figure, comparison_page};
@@ -102,13 +102,9 @@ fn told(comparison: &Comparison) -> String {
         None => number(own.value, 6),
     };
     for row in &comparison.rows {
-        let differences = row.differences.iter().flat_map(|own| {
-            let relative = own.and_then(|own| own.relative);
-            let deviations = own.and_then(|own| own.deviations);
-            [
-                relative.map_or_else(String::new, |own| format!("{:+.2} %", 100.0 * own)),
-                deviations.map_or_else(String::new, |own| format!("{own:+.1}")),
-            ]
+        let differences = row.differences.iter().flat_map(|own| match own {
+            Some(own) => difference(*own),
+            None => [String::new(), String::new()],
         });
         let cells = [row.name.clone()]
             .into_iter()
@@ -118,15 +114,21 @@ fn told(comparison: &Comparison) -> String {
         table.row(cells.collect());
     }
     text += &table.render();
+    if let Some(why) = comparison.unknown_parts() {
+        let _ = writeln!(text, "{why}");
+    }
     for (place, own) in comparison.together.iter().enumerate() {
         if let Some(own) = own {
+            let probability = match own.likely() {
+                Some(known) => number(known, 2),
+                None => format!("less than {UNLIKELY:e}"),
+            };
             let _ = writeln!(
                 text,
-                "joint {} against joint 1, all {} unknowns together: χ² = {}, exceeded by chance with probability {}",
+                "joint {} against joint 1, all {} unknowns together: χ² = {}, exceeded by chance with a probability of {probability}",
                 place + 2,
                 own.unknowns,
                 number(own.chi_squared, 3),
-                number(own.probability, 2)
             );
         }
     }
@@ -151,6 +153,20 @@ fn told(comparison: &Comparison) -> String {
         );
     }
     text
+}
+
+/// A part of the first value, and standard deviations.
+fn difference(own: Difference) -> [String; 2] {
+    let deviations = |own: f64| match own.abs() {
+        0.0..100.0 => format!("{own:+.1}"),
+        _ if own > 0.0 => format!("+{}", number(own, 3)),
+        _ => number(own, 3),
+    };
+    [
+        own.relative
+            .map_or_else(|| "–".to_owned(), |own| format!("{:+.2} %", 100.0 * own)),
+        own.deviations.map_or_else(String::new, deviations),
+    ]
 }
 
 fn as_json(comparison: &Comparison) -> Value {

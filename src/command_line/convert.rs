@@ -17,7 +17,7 @@ use bolted_joint::study::StudyText;
 use super::error::CliError;
 use super::kind::expect;
 use super::named_files::check_named;
-use super::output::{Wrote, check_output, print, warn, write_file};
+use super::output::{Wrote, check_output, is_standard_output, print, warn, write_file};
 
 /// `convert`
 #[derive(Debug, Args)]
@@ -45,7 +45,7 @@ pub(super) struct ConvertArguments {
     /// Take the joint of small motion about rest: sliders stick, terms of higher order vanish
     #[arg(long)]
     at_rest: bool,
-    /// Units of the numbers, for programs of finite elements [default: si]
+    /// Units of the numbers; mm for programs of finite elements alone [default: si]
     #[arg(long, value_enum, value_name = "UNITS")]
     units: Option<UnitsArgument>,
     /// Print what was written as JSON
@@ -200,7 +200,8 @@ fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Re
     let has_nodes = target.has_nodes();
     let of_elements = "none: MATLAB and Modelica have no nodes or elements; it is for Nastran, Abaqus, CalculiX and ANSYS";
     let of_units =
-        "none: MATLAB and Modelica have SI units; it is for Nastran, Abaqus, CalculiX and ANSYS";
+        "si: MATLAB and Modelica have SI units; mm is for Nastran, Abaqus, CalculiX and ANSYS";
+    let is_mm = matches!(arguments.units, Some(UnitsArgument::Mm));
     let of_rotations =
         "none: it is for CalculiX, where rotations are displacements of nodes of their own";
     let options = [
@@ -211,7 +212,7 @@ fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Re
             has_nodes,
             of_elements,
         ),
-        ("--units", arguments.units.is_some(), has_nodes, of_units),
+        ("--units", is_mm, has_nodes, of_units),
         (
             "--rotation-nodes",
             arguments.rotation_nodes.is_some(),
@@ -220,6 +221,7 @@ fn refuse_what_has_no_effect(arguments: &ConvertArguments, target: Target) -> Re
         ),
     ];
     match options.iter().find(|(_, given, means, _)| *given && !means) {
+        Some((option @ "--units", _, _, expected)) => Err(CliError::option(option, "mm", expected)),
         Some((option, _, _, expected)) => Err(CliError::option(option, "it", expected)),
         None => Ok(()),
     }
@@ -232,21 +234,42 @@ fn write(
     options: &Options,
     converted: &Converted,
 ) -> Result<(), CliError> {
-    write_file(&arguments.output, converted.text.as_bytes())?;
+    let output = output_of(arguments, target, &options.identifier);
+    if output != arguments.output {
+        check_output(&output, &[&arguments.joint_file])?;
+        warn(&[format!(
+            "{}: no function of MATLAB can be called so, since it has letters, digits and _ alone and begins with a letter: file and \
+             function are called {}",
+            arguments.output.display(),
+            options.identifier
+        )]);
+    }
+    write_file(&output, converted.text.as_bytes())?;
     if arguments.json {
         let value = json!({
-            "output": arguments.output.display().to_string(),
+            "output": output.display().to_string(),
             "to": target.name(),
             "name": options.identifier,
             "notes": converted.notes,
         });
         print(&serde_json::to_string_pretty(&value)?)
     } else {
-        let mut text = format!("{} for {}\n", Wrote(&arguments.output), target.name());
+        let mut text = format!("{} for {}\n", Wrote(&output), target.name());
         for note in &converted.notes {
             let _ = writeln!(text, "  {note}");
         }
         print(&text)
+    }
+}
+
+/// The file to write: MATLAB finds a function by the name of its file.
+fn output_of(arguments: &ConvertArguments, target: Target, identifier: &str) -> PathBuf {
+    let output = &arguments.output;
+    let is_called = output.file_stem().is_some_and(|stem| stem == identifier);
+    let is_file = output.extension().is_some() && !is_standard_output(output);
+    match target == Target::Matlab && is_file && !is_called {
+        true => output.with_file_name(format!("{identifier}.m")),
+        false => output.clone(),
     }
 }
 

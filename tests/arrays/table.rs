@@ -105,6 +105,10 @@ fn complex_columns_decibels_and_a_row_of_units_are_the_same_numbers() {
         "f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,mm/s^2/N,mm/s^2/N\n1,3,-4\n2,0.5,2\n".to_owned(),
         "Frequency (Hz),1:Y/2:Y real (mm/s^2/N),1:Y/2:Y imaginary\n1,3,-4\n2,0.5,2\n".to_owned(),
         "freq_Hz;1:Y/2:Y real [mm/s^2/N];1:Y/2:Y imaginary\n1;3;-4\n2;0,5;2\n".to_owned(),
+        "f,1:Y/2:Y [mm/s^2/N],1:Y/2:Y\nHz,real,imag\n1,3,-4\n2,0.5,2\n".to_owned(),
+        "f;1:Y/2:Y accelerance;\n;re [mm/s^2/N];im\n1;3;-4\n2;0,5;2\n".to_owned(),
+        "f,1:Y/2:Y,1:Y/2:Y\n,real accelerance,imaginary\nHz,mm/s^2/N,\n1,3,-4\n2,0.5,2\n"
+            .to_owned(),
         "f\t1:Y/2:Y real\t1:Y/2:Y imaginary\n[Hz]\t[mm/s^2/N]\t-\n1\t3\t-4\n2\t0.5\t2\n".to_owned(),
         format!(
             "f,1:Y/2:Y magnitude [dB re 1 mm/s^2/N],1:Y/2:Y phase [deg]\n1,{one},{first}\n2,{two},{second}\n"
@@ -230,6 +234,11 @@ fn every_fault_is_located_and_named() {
         ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,m/N,mm/N\n1,2,3\n".to_owned(), 1, "\"m/N\" in one column and \"mm/N\""),
         ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,furlong/N,\n1,2,3\n".to_owned(), 1, "the unit \"furlong/N\""),
         ("f,1:Y/2:Y real,1:Y/2:Y imaginary\nHz,m/N,m/N\nHz,m/N,m/N\n".to_owned(), 3, "column 1: found \"Hz\""),
+        ("f,1:Y/2:Y,1:Y/2:Y\nHz,real,imga\n1,2,3\n".to_owned(), 2, "column 3: found \"imga\" below the name \"1:Y/2:Y\", expected one of real, imaginary"),
+        ("f,1:Y/2:Y,1:Y/2:Y\nHz,real,\n1,2,3\n".to_owned(), 2, "column 3: found \"\" below the name \"1:Y/2:Y\""),
+        ("f,1:Y/2:Y real,1:Y/2:Y\nHz,real,imag\n1,2,3\n".to_owned(), 2, "column 2: found \"real\" below the name \"1:Y/2:Y real\", expected it in the name or below it"),
+        ("f,1:Y/2:Y [m/N],1:Y/2:Y\nHz,real [mm/N],imag\n1,2,3\n".to_owned(), 2, "column 2: found \"real [mm/N]\" below the name \"1:Y/2:Y [m/N]\", expected the same unit"),
+        ("f,1:Y/2:Y,1:Y/2:Y\n1,2,3\n".to_owned(), 1, "column 2: found the name \"1:Y/2:Y\""),
         ("f,1:Y/2:Y complex [m/N]\n1,1+2\n".to_owned(), 2, "column 2: found \"1+2\", expected a number such as 1.2+3.4j"),
         ("f,1:Y/2:Y complex [m/N]\n1,\n".to_owned(), 2, "column 2: found \"\""),
         ("f;1:Y/2:Y complex [m/N]\n1;1,5+2.5j\n".to_owned(), 2, "commas and points"),

@@ -131,3 +131,44 @@ fn joints_of_other_kinds_are_refused() {
         &["jenkins.slip_force_y", "jenkins.stiffness_y"],
     );
 }
+
+#[test]
+fn no_probability_is_zero_and_what_may_be_zero_has_no_per_cent() {
+    let bench = Bench::new();
+    bench.write("new.json", joint(1e5, 300.0));
+    bench.write("worn.json", joint(5e4, 300.0));
+    let told = bench
+        .done("compare new.json worn.json --plot o.html")
+        .stdout;
+    has(
+        &told,
+        &["exceeded by chance with a probability of less than 1e-10"],
+    );
+    has(
+        &bench.text("o.html"),
+        &["a probability of less than 10<sup>−10</sup>."],
+    );
+    let page_of = |first: f64, second: f64, said: &str| {
+        let of = |k: f64| {
+            format!(
+                r#"{{"format": "bolted-joint/1", "name": "x", "joint": {{"dofs": ["y"], "stiffness": [[{k}]], "damping": [[2]]}}}}"#
+            )
+        };
+        bench.write("one.json", of(first));
+        bench.write("other.json", of(second));
+        let outcome = bench.run("compare one.json other.json --plot o.html");
+        assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+        assert_eq!(
+            outcome.stdout.contains(said),
+            bench.text("o.html").contains(said)
+        );
+        (outcome.stdout, bench.text("o.html"))
+    };
+    let dash = "Where there is a dash, the first value cannot be told from zero";
+    let (told, page) = page_of(0.1, 60.0, dash);
+    assert!(told.contains(dash) && told.contains("  –"), "{told}");
+    assert!(!told.contains("59900"), "{told}");
+    assert!(page.contains(dash));
+    let (told, _) = page_of(50.0, 60.0, dash);
+    assert!(!told.contains(dash) && told.contains("+20.00 %"), "{told}");
+}

@@ -121,3 +121,36 @@ fn what_a_tool_cannot_express_is_refused_and_never_dropped() {
         &["$ NOT TO BE RELIED ON: has not converged"],
     );
 }
+
+#[test]
+fn units_that_a_tool_has_may_be_said() {
+    let bench = Bench::new();
+    bench.write("j.json", JOINT);
+    for (tool, file) in [("matlab", "own.m"), ("modelica", "own.mo")] {
+        bench.done(&format!("convert j.json --to {tool} --units si -o {file}"));
+        bench.refused(
+            &format!("convert j.json --to {tool} --units mm -o {file}"),
+            &["--units: found mm, expected si"],
+        );
+    }
+}
+
+#[test]
+fn a_function_of_matlab_has_the_name_of_its_file() {
+    let bench = Bench::new();
+    bench.write("j.json", JOINT);
+    let outcome = bench.done("convert j.json --to matlab -o 2nd-joint.m");
+    has(&outcome.stdout, &["wrote joint_2nd_joint.m for MATLAB"]);
+    has(
+        &outcome.stderr,
+        &[
+            "2nd-joint.m: no function of MATLAB can be called so",
+            "are called joint_2nd_joint",
+        ],
+    );
+    assert!(!bench.path("2nd-joint.m").exists());
+    has(
+        &bench.text("joint_2nd_joint.m"),
+        &["= joint_2nd_joint(relative"],
+    );
+}

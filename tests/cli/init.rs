@@ -227,9 +227,24 @@ fn a_folder_without_measurements_is_said_to_be_one() {
             "expected measured functions",
         ],
     );
+    bench.write("decay.csv", "time_s,displacement_m\n0,1e-6\n");
+    bench.refused(
+        "init",
+        &[
+            "decay.csv is a table of a free decay",
+            "of a study of method \"lap-response\"",
+        ],
+    );
     bench.write("a.uff", b"    -1\n    58\nbroken");
     bench.write("b.uff", ASSEMBLY);
-    bench.refused("init", &["found b.uff", "a.uff"]);
+    bench.refused(
+        "init",
+        &[
+            "found b.uff, which are parts by their names",
+            "expected functions of both parts together as well",
+            "a.uff",
+        ],
+    );
     bench.refused(
         "init missing",
         &["missing: cannot be read", "give the folder"],
@@ -272,4 +287,108 @@ fn a_file_called_by_both_parts_is_the_assembly() {
     let shown = other.done("show two.csv");
     has(&shown.stdout, &["without a phase nothing tells"]);
     has(&shown.stderr, &["magnitudes alone?"]);
+}
+
+/// Files with their points, what is told of them, and what stands in the study.
+type Case<'a> = (&'a [(&'a str, &'a str)], &'a str, &'a [&'a str]);
+
+#[test]
+fn a_part_without_a_file_is_a_beam_to_be_filled_in() {
+    let three = "11:+Y 12:+Y 13:+Y";
+    #[rustfmt::skip]
+    let cases: [Case<'_>; 4] = [
+        (&[("a.csv", "1:+Y 2:+Y 2:+RZ"), ("assembly.csv", three)], "part a is taken to be a.csv, part b a beam, the assembly assembly.csv",
+         &["[a]                                   # the first part\nfrf = \"a.csv\"\njoint = { y = \"1:+Y\"", "[b]                                   # CHECK: the second part, of which there is no file",
+           "points = { \"11:+Y\" = 0.0, \"12:+Y\" = 0.0, \"13:+Y\" = 0.0 }", "points = [\"11:+Y\", \"12:+Y\", \"13:+Y\"]   # CHECK: points of part b", "model = \"full\""]),
+        (&[("b.csv", &format!("10:+Y {three}")), ("joined.csv", three)], "part a is taken to be a beam, part b b.csv, the assembly joined.csv",
+         &["[a]                                   # CHECK: the first part, of which there is no file", "frf = \"b.csv\"\njoint = { y = \"10:+Y\" }", "points = [\"11:+Y\", \"12:+Y\", \"13:+Y\"]"]),
+        (&[("assembly.csv", three)], "part a is taken to be a beam, part b a beam, the assembly assembly.csv",
+         &["name = \"joint of two beams\"", "points = { \"11:+Y\" = 0.0"]),
+        // points of A alone
+        (&[("a.csv", "1:+Y 2:+Y 3:+Y"), ("assembly.csv", "1:+Y 2:+Y")], "part b a beam",
+         &["joint = { y = \"3:+Y\" }", "points_on_a = [\"1:+Y\", \"2:+Y\"]   # CHECK: points of part a"]),
+    ];
+    for (files, told, written) in cases {
+        let bench = Bench::new();
+        for (name, points) in files {
+            bench.write(name, table(points, points).replace(" [m/N]", ""));
+        }
+        let outcome = bench.done("init");
+
+        has(
+            &outcome.stdout,
+            &[told, "fill in its numbers, which are 0 in the study"],
+        );
+        has(&bench.text("study.toml"), written);
+        // nobody takes zeros for a beam
+        bench.refused("identify study.toml -o o.joint.json", &["beam", "length"]);
+    }
+}
+
+#[test]
+fn one_file_may_have_everything() {
+    let both = |first: &str, second: &str| {
+        let (one, other) = (table(first, first), table(second, second));
+        let lines = one.lines().zip(other.lines());
+        let lines = lines.map(|(one, other)| {
+            let behind = other.split_once(',').unwrap().1;
+            format!("{one},{behind}\n")
+        });
+        lines.collect::<String>()
+    };
+    let bench = Bench::new();
+    bench.write("all.csv", both("1:+Y 2:+Y", "11:+Y 12:+Y"));
+    bench.done("init");
+    has(
+        &bench.text("study.toml"),
+        &[
+            "[a]                                   # CHECK: the first part? Guessed",
+            "points: 1:+Y 2:+Y\n",
+            "frf = \"all.csv\"\npoints = [\"11:+Y\", \"12:+Y\"]",
+        ],
+    );
+    let three = Bench::new();
+    let third = table("21:+Y", "21:+Y");
+    let two = both("1:+Y", "11:+Y");
+    let lines = two.lines().zip(third.lines());
+    let lines = lines.map(|(one, other)| format!("{one},{}\n", other.split_once(',').unwrap().1));
+    three.write("all.csv", lines.collect::<String>());
+    three.refused(
+        "init",
+        &[
+            "found all.csv, with 3 groups of functions that nothing connects (1:+Y; 11:+Y; 21:+Y)",
+            "write each group into a file of its own",
+        ],
+    );
+}
+
+#[test]
+fn two_tests_of_one_assembly_are_not_taken_for_a_part_and_an_assembly() {
+    let bench = Bench::new();
+    for name in ["after.csv", "new.csv"] {
+        bench.write(name, table("11:+Y 12:+Y", "11:+Y"));
+    }
+    bench.refused(
+        "init",
+        &[
+            "found after.csv and new.csv, which have the same functions",
+            "give each test a folder of its own",
+        ],
+    );
+}
+
+#[test]
+fn modes_of_a_measured_part_stand_beside_its_functions() {
+    let bench = Bench::new();
+    bench.write("a.csv", table("2:+Y", "2:+Y"));
+    bench.write("a-modes.toml", MODES);
+    bench.write("b.csv", table("10:+Y 11:+Y", "10:+Y 11:+Y"));
+    bench.write("assembly.csv", table("11:+Y", "11:+Y"));
+    bench.done("init");
+    has(
+        &bench.text("study.toml"),
+        &[
+            "[a]                                   # the first part\nfrf = \"a.csv\"\nmodal = \"a-modes.toml\"   # gives what was not measured\n",
+        ],
+    );
 }

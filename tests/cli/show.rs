@@ -423,3 +423,40 @@ fn files_beside_one_that_cannot_be_read_are_shown() {
         ],
     );
 }
+
+#[test]
+fn a_universal_file_without_functions_is_told_by_its_data_sets() {
+    let bench = crate::rig::ready();
+    // function type 1 is a time response
+    let functions = bench.text("c.uff");
+    let of_time = functions
+        .split("    -1\n    58\n")
+        .map(|own| match own.lines().nth(5) {
+            Some(record) => own.replacen(record, &record.replacen("   4", "   1", 1), 1),
+            None => own.to_owned(),
+        });
+    let of_time = of_time.collect::<Vec<_>>().join("    -1\n    58\n");
+    assert_ne!(of_time, functions);
+    let mesh = "    -1\n  2411\n         1         1         1        11\n    -1\n";
+    bench.write("c.uff", format!("{mesh}{of_time}"));
+    let shown = bench.done("show c.uff").stdout;
+    has(
+        &shown,
+        &[
+            "c.uff: universal file without frequency response functions",
+            "9 × time response (data set 58) at 21:+Y 22:+Y 23:+Y",
+            "1 × data set 2411 (nodes)",
+            "export the measurement as data sets 58 of function type 4",
+        ],
+    );
+    let details = &bench.done("show --json c.uff").json()[0]["details"];
+    assert_eq!(details["data_sets"].as_array().unwrap().len(), 2);
+    bench.refused(
+        crate::bench::IDENTIFY,
+        &[
+            "c.uff: found no frequency response function but 9 ",
+            "× time response (data set 58)",
+            "data sets 58 of function type 4",
+        ],
+    );
+}

@@ -142,3 +142,29 @@ fn other_functions_than_frequency_responses_are_not_enough() {
     let found = "c.uff, line 11: found dynamic stiffness";
     bench.refused(IDENTIFY, &[found, "export the motion per load"]);
 }
+
+#[test]
+fn a_file_that_is_named_twice_and_lacks_points_is_said_to_be() {
+    for (file, roles) in [
+        ("a.uff", "for a and for the assembly"),
+        ("b.uff", "for b and for the assembly"),
+    ] {
+        let bench = rig::ready();
+        bench.edit(
+            "study.toml",
+            &format!("frf = \"{file}\""),
+            "frf = \"c.uff\"",
+        );
+        let fragments = ["c.uff: ", roles, "is it meant for both?"];
+        bench.refused(IDENTIFY, &fragments);
+    }
+    let bench = rig::ready();
+    bench.edit("study.toml", "frf = \"c.uff\"", "frf = \"a.uff\"");
+    bench.refused(
+        IDENTIFY,
+        &[
+            "a.uff: found no function between those that are asked for, 21:+Y 22:+Y 23:+Y",
+            "for a and for the assembly",
+        ],
+    );
+}

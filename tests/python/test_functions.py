@@ -1,5 +1,6 @@
 """Functions as arrays: what is read, what is refused."""
 
+import os
 import pathlib
 import re
 import warnings
@@ -420,3 +421,17 @@ def test_numbers_that_would_lose_something_are_refused():
     for frequency, values in [(F + 1j, H), (F > 1, H), (F, H.real > 0)]:
         with pytest.raises(BoltedJointError, match="found what is no array of numbers"):
             Functions(frequency, values, NAMES, NAMES)
+
+
+@pytest.mark.parametrize("ending", ["npz", "csv"])
+def test_a_file_is_replaced_and_never_half_written(tmp_path, ending):
+    path, old = tmp_path / f"a.{ending}", tmp_path / f"old.{ending}"
+    path.write_bytes(b"as it was")
+    os.link(path, old)
+    Functions(F, H, NAMES, NAMES).save(path)
+    # whoever has the old file open still has it whole
+    assert old.read_bytes() == b"as it was"
+    assert len(bolted_joint.read(path)) == 4
+    assert sorted(own.name for own in tmp_path.iterdir()) == [path.name, old.name]
+    with pytest.raises(FileNotFoundError, match=f"missing.*a.{ending}"):
+        Functions(F, H, NAMES, NAMES).save(tmp_path / "missing" / f"a.{ending}")

@@ -137,3 +137,24 @@ def test_numpy_reads_what_respond_computes(demo, run, tmp_path):
     assert "it would be lost" in run(*again, expect=1).stderr
     refused = run(*command, "-o", tmp_path / "c.mat", expect=1).stderr
     assert "expected a name that ends in .csv, .uff, .unv or .npz" in refused
+
+
+MISSPELT = {
+    "frequency": ({"freq": "frequncy"}, "found `frequncy`, did you mean `frequency`?"),
+    "responses": ({"response": "respnse"}, "found `respnse`, did you mean `response`?"),
+    "references": ({"reference": "refernces"}, "found `refernces`, did you mean `references`?"),
+}
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat"])
+@pytest.mark.parametrize(("names", "meant"), MISSPELT.values(), ids=MISSPELT)
+def test_a_misspelt_name_gets_the_one_that_was_meant(demo, study, names, meant, ending):
+    save(study.folder / f"c.{ending}", renamed(usual(demo), **names))
+    _, done = study(f'frf = "c.{ending}"', expect=1)
+    assert done.stderr.rstrip().endswith(meant)
+
+
+def test_a_misspelt_quantity_gets_the_one_that_was_meant(demo, study):
+    save(study.folder / "c.npz", usual(demo, quantity="receptence"))
+    _, done = study('frf = "c.npz"', expect=1)
+    assert 'array quantity: found "receptence"' in done.stderr and "did you mean `receptance`?" in done.stderr

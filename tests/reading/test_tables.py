@@ -1,6 +1,7 @@
 """Tables that NumPy writes, in every dress, tell the same joint as the universal file that they were made of."""
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -114,7 +115,32 @@ def test_coherence_in_a_file_of_its_own(demo, study, run):
     assert "assembly.uff: found no coherence" in done.stderr
     alone.write_text("\n".join(rows).replace("/1", "/9"), encoding="utf-8")
     _, done = study('frf = "assembly.uff"\naverages = 10\ncoherence = "coherence.csv"')
-    assert "none of its coherences belongs to a function of" in done.stderr
+    assert "coherence.csv: none of its coherences belongs to a function of" in done.stderr
+
+
+def test_what_is_wrong_with_a_coherence_is_told_of_its_own_file(demo, study):
+    names = [f"{name(pair)} coherence" for pair in PAIRS]
+    frequencies = [f"{hz!r}" for hz in map(float, demo.frequency)]
+
+    def write(file, names, lines):
+        rows = [",".join(["f", *names])] + [",".join([hz] + ["0.9"] * len(names)) for hz in lines]
+        (study.folder / file).write_text("\n".join(rows), encoding="utf-8")
+
+    def told(files, averages="averages = 10\n", expect=1):
+        _, done = study(f'frf = "assembly.uff"\n{averages}coherence = {files}', expect=expect)
+        return done.stderr
+
+    write("short.csv", names, frequencies[:-1])
+    assert re.search(r"short.csv: coherence 1\d:\+Y / 1\d:\+Y: found no value for line", told('"short.csv"'))
+    write("all.csv", names, frequencies)
+    write("again.csv", names[:1], frequencies)
+    assert "again.csv: found two coherences" in told('["all.csv", "again.csv"]')
+    other = [one.replace("1", "9") for one in names]
+    write("other.csv", other, frequencies)
+    warned = told('["all.csv", "other.csv"]', expect=0)
+    assert "other.csv: none of its coherences belongs to a function of" in warned and "all.csv: none" not in warned
+    warned = told('"all.csv"', averages="", expect=0)
+    assert "all.csv: coherence is not used, since the number of averages is not known" in warned
 
 
 def test_thinned_lines_are_those_of_a_thinned_file(demo, study):

@@ -145,7 +145,7 @@ fn the_closing_line_may_stand_by_itself_and_binary_sets_of_other_types_are_skipp
         other.extend_from_slice(&file[range.end..]);
         let reading = read_text(&other).unwrap();
         assert_eq!(reading.functions().len(), 2);
-        assert_eq!(reading.skipped_datasets, 1);
+        assert_eq!(reading.skipped_datasets.len(), 1);
         assert_eq!(reading.into_set().unwrap(), small_set(&EVEN));
     }
 }

@@ -55,7 +55,8 @@ fn the_small_file_is_good_in_every_dress() {
         assert_eq!(function.frequency_hz(), [1.0, 1.5, 2.0]);
     }
     let after_other = read_text(format!("    -1\n  2411\n\n    -1\n{good}")).unwrap();
-    assert_eq!(after_other.skipped_datasets, 1);
+    let skipped = after_other.skipped();
+    assert_eq!(skipped, ["1 × data set 2411 (nodes)"]);
 }
 
 #[test]

@@ -11,7 +11,7 @@ mod together;
 
 pub use error::CompareError;
 pub use numbers::{Difference, HALF, Measured, Row};
-pub use together::Together;
+pub use together::{Together, UNLIKELY};
 
 use bolted_joint_joint::{DofSet, JointFile};
 
@@ -56,6 +56,16 @@ impl Comparison {
                 .collect(),
             notes: notes(joints),
         })
+    }
+
+    /// Why differences are no parts of some first values, which have a dash in their place.
+    #[must_use]
+    pub fn unknown_parts(&self) -> Option<&'static str> {
+        let mut differences = self.rows.iter().flat_map(|row| &row.differences).flatten();
+        differences.any(|own| own.relative.is_none()).then_some(
+            "Where there is a dash, the first value cannot be told from zero, by its deviation or beside the difference, so that no part of it \
+             says anything.",
+        )
     }
 }
 

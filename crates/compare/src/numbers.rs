@@ -5,6 +5,8 @@ use bolted_joint_joint::{Friction, JointFile, LawError, unit};
 
 /// Half an interval of 95 % in standard deviations.
 pub const HALF: f64 = 1.959_963_984_540_054;
+/// Of a difference a value without a deviation is at least this part, if the difference is to be told as a part of the value.
+const LEAST_PART: f64 = 0.01;
 
 /// One number of all joints.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,12 +36,24 @@ impl Measured {
     pub fn is_told_from_zero(&self) -> bool {
         self.value.abs() > HALF * self.deviation.unwrap_or(0.0)
     }
+
+    /// The difference of another value as a part of this one; `None` where this one may as well be zero: by its deviation, by that
+    /// of the other where it has none, or where neither has one because it is next to nothing beside the difference.
+    fn part_of(&self, other: &Self) -> Option<f64> {
+        let by = other.value - self.value;
+        let own = Self {
+            deviation: self.deviation.or(other.deviation),
+            ..*self
+        };
+        let is_much = own.deviation.is_some() || own.value.abs() >= LEAST_PART * by.abs();
+        (own.is_told_from_zero() && is_much).then(|| by / own.value.abs())
+    }
 }
 
 /// How far a value is from the first one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Part of the first value; `None` where that is not told from zero.
+    /// Part of the first value; `None` where that may as well be zero.
     pub relative: Option<f64>,
     /// Standard deviations of the difference, √(σ₁² + σ₂²); `None` unless both files have one.
     pub deviations: Option<f64>,
@@ -64,7 +78,7 @@ impl Row {
                 .zip(own.deviation)
                 .map(|(one, other)| one.hypot(other));
             (first != *own || first.value != 0.0).then(|| Difference {
-                relative: first.is_told_from_zero().then(|| by / first.value.abs()),
+                relative: first.part_of(own),
                 deviations: sum.map(|sum| by / sum),
             })
         };
@@ -212,6 +226,35 @@ fn friction(files: &[&JointFile], rows: &mut Vec<Row>) {
                 unit(parameter.unit, law.dof.kind, law.dof.kind),
                 values.collect(),
             ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_may_be_zero_has_no_parts() {
+        let of = |value: f64, deviation: Option<f64>| Measured { value, deviation };
+        #[rustfmt::skip]
+        let cases = [
+            (of(100.0, Some(1.0)), of(110.0, Some(1.0)), Some(0.1)),
+            (of(-100.0, None), of(-110.0, None), Some(-0.1)),
+            (of(1.0, Some(1.0)), of(2.0, Some(1.0)), None),
+            // the first one's deviation is not known
+            (of(0.1, None), of(60.0, Some(10.0)), None),
+            (of(0.1, None), of(-60.0, None), None),
+            (of(0.0, None), of(5.0, None), None),
+        ];
+        for (first, second, expected) in cases {
+            let row = Row::new("k".to_owned(), "N/m".to_owned(), vec![first, second]);
+            let relative = row.differences[0].unwrap().relative;
+            let is_same = match (relative, expected) {
+                (Some(found), Some(expected)) => f64::abs(found - expected) < 1e-12,
+                (found, expected) => found == expected,
+            };
+            assert!(is_same, "{first:?} {second:?}: {relative:?}");
         }
     }
 }

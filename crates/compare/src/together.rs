@@ -16,7 +16,16 @@ pub struct Together {
     pub probability: f64,
 }
 
+/// Below this a probability is as good as none; what it is rests on tails of distributions that nobody has seen.
+pub const UNLIKELY: f64 = 1e-10;
+
 impl Together {
+    /// The probability; `None` below [`UNLIKELY`].
+    #[must_use]
+    pub fn likely(&self) -> Option<f64> {
+        Some(self.probability).filter(|own| *own >= UNLIKELY)
+    }
+
     /// `None` unless both files have deviations and correlations of the same unknowns, each an entry of K or C.
     pub(crate) fn of(first: &JointFile, second: &JointFile) -> Option<Self> {
         let (names, one, one_covariance) = estimate(first)?;

@@ -1,10 +1,11 @@
-//! Reading and writing of files as every part of the program does it: small texts with one set of messages, outputs that
-//! are written whole or not at all, and who wrote them and when.
+//! Reading and writing of files as every part of the program does it: small texts with one set of messages, words that
+//! are misspelt, outputs that are written whole or not at all, and who wrote them and when.
 #![forbid(unsafe_code)]
 
 mod decimal;
 mod encoding;
 pub mod inputs;
+pub mod misspelt;
 mod number;
 pub mod text_file;
 pub mod text_table;
@@ -13,6 +14,7 @@ pub mod whole_file;
 
 pub use decimal::Decimal;
 pub use encoding::Encoding;
+pub use misspelt::nearest;
 pub use number::number;
 pub use text_file::TextFileError;
 pub use timestamp::{Civil, DateError, Timestamp};

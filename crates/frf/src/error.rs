@@ -97,11 +97,13 @@ pub enum FrfError {
     NoFunctions,
     /// A file with functions, but none that was asked for.
     #[error(
-        "found no function between the degrees of freedom that are asked for; there are (response / reference) {}; \
-         correct the labels in the study",
+        "found no function between {}; there are (response / reference) {}; correct the labels in the study, or name another file",
+        asked_for(wanted),
         list(present)
     )]
     NoneSelected {
+        /// What was asked for, where that is known.
+        wanted: Vec<Dof>,
         /// Every pair that is there, sorted.
         present: Vec<(Dof, Dof)>,
     },
@@ -335,6 +337,15 @@ pub enum FrfError {
         "found coherences alone, expected functions; name the file as coherence = \"…\" beside frf"
     )]
     OnlyCoherences,
+    /// A universal file without frequency response functions.
+    #[error(
+        "found no frequency response function but {found}, expected at least one: data sets 58 of function type 4; export the measurement \
+         as these"
+    )]
+    OnlyOtherDatasets {
+        /// What it has, in words.
+        found: String,
+    },
     /// The functions of a file do not make a set.
     #[error("{}: {source}", path.display())]
     InFile {
@@ -343,6 +354,41 @@ pub enum FrfError {
         /// What is wrong with them.
         source: Box<FrfError>,
     },
+}
+
+impl FrfError {
+    /// The same error, which says what was asked for.
+    #[must_use]
+    pub fn asked_for(self, dofs: &[Dof]) -> Self {
+        match self {
+            Self::InFile { path, source } => Self::InFile {
+                path,
+                source: Box::new(source.asked_for(dofs)),
+            },
+            Self::NoneSelected { present, .. } => Self::NoneSelected {
+                wanted: dofs.to_vec(),
+                present,
+            },
+            other => other,
+        }
+    }
+}
+
+/// What was asked for, in words.
+fn asked_for(wanted: &[Dof]) -> String {
+    let named: Vec<String> = wanted
+        .iter()
+        .take(LISTED_PAIRS)
+        .map(Dof::to_string)
+        .collect();
+    match (wanted.len(), wanted.len().saturating_sub(LISTED_PAIRS)) {
+        (0, _) => "the degrees of freedom that are asked for".to_owned(),
+        (_, 0) => format!("those that are asked for, {}", named.join(" ")),
+        (_, more) => format!(
+            "those that are asked for, {} and {more} more",
+            named.join(" ")
+        ),
+    }
 }
 
 /// A band in words; an end that leaves nothing out is not named.

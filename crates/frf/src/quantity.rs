@@ -7,6 +7,7 @@ use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::Dof;
+use bolted_joint_files::misspelt::did_you_mean;
 
 /// A motion per load: the three forms in which frequency response functions are measured.
 ///
@@ -43,6 +44,14 @@ impl Quantity {
         let mut all = Self::WORDS.iter();
         all.find(|(_, words)| words.contains(&word.as_str()))
             .map(|(quantity, _)| *quantity)
+    }
+
+    /// What is expected in the place of a word that names none, with the name that was meant.
+    pub(super) fn instead_of(word: &str) -> String {
+        let names = Self::WORDS.map(|(_, words)| words[0]);
+        let [receptance, mobility, accelerance] = names;
+        let meant = did_you_mean(word, &names);
+        format!("{receptance}, {mobility} or {accelerance}{meant}")
     }
 
     /// The quantity with so many time derivatives of displacement above the load: 0, 1 or 2.

@@ -3,17 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use super::skipped::{SkippedDatasets, SkippedFunction, in_words};
 use super::summary::{FileSummary, StatedBy, Statements, coherence_noise};
 use super::{Coherence, Dof, Frf, FrfError, FrfSet, UnitStatement, without_phase};
-
-/// A function of a file that is no frequency response function and was passed over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SkippedFunction {
-    /// The line at which its data set begins.
-    pub line: usize,
-    /// The standard's name of its function type, such as "auto spectrum".
-    pub kind: &'static str,
-}
 
 /// What was read from a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,9 +20,11 @@ pub struct FrfReading {
     pub not_selected: BTreeSet<(Dof, Dof)>,
     /// Data sets 58 that hold something else than a frequency response function or an ordinary coherence.
     pub skipped_functions: Vec<SkippedFunction>,
-    /// The number of data sets that are neither functions (58) nor units (164).
-    pub skipped_datasets: usize,
+    /// Data sets that are neither functions (58) nor units (164).
+    pub skipped_datasets: Vec<SkippedDatasets>,
     pub(super) statements: Statements,
+    /// Files of the coherences, with how many each has, in their order; nothing where all are of this file.
+    pub(super) coherence_files: Vec<(PathBuf, usize)>,
     /// What was found in which array of a file of arrays.
     pub(super) taken: Vec<(&'static str, String)>,
 }
@@ -115,19 +109,60 @@ impl FrfReading {
         let averages = self.averages();
         let set = match self.functions.is_empty() && !self.not_selected.is_empty() {
             true => Err(FrfError::NoneSelected {
+                wanted: Vec::new(),
                 present: self.not_selected.iter().copied().collect(),
             }),
             false if self.functions.is_empty() && !self.coherences.is_empty() => {
                 Err(FrfError::OnlyCoherences)
             }
+            false if self.functions.is_empty() && self.has_skipped() => {
+                Err(FrfError::OnlyOtherDatasets {
+                    found: self.skipped().join(", "),
+                })
+            }
             false => FrfSet::new(self.functions),
         };
-        set.and_then(|set| set.with_coherences(self.coherences, averages))
-            .map(|set| set.knowing_of(self.not_selected))
-            .map_err(|source| FrfError::InFile {
-                path: self.path,
-                source: Box::new(source),
-            })
+        let in_file = |path: &PathBuf, source| FrfError::InFile {
+            path: path.clone(),
+            source: Box::new(source),
+        };
+        let mut set = set
+            .and_then(|set| set.with_coherences(Vec::new(), averages))
+            .map_err(|source| in_file(&self.path, source))?;
+        let all = [(self.path, self.coherences.len())];
+        let files = match self.coherence_files.is_empty() {
+            true => &all[..],
+            false => &self.coherence_files,
+        };
+        let mut coherences = self.coherences.into_iter();
+        for (path, count) in files {
+            let own = coherences.by_ref().take(*count).collect();
+            set = set
+                .with_coherences(own, averages)
+                .map_err(|source| in_file(path, source))?;
+        }
+        Ok(set.knowing_of(self.not_selected))
+    }
+
+    /// Takes the coherences of another file, too.
+    fn extend_coherences(&mut self, path: PathBuf, coherences: Vec<Coherence>) {
+        if self.coherence_files.is_empty() {
+            let own = (self.path.clone(), self.coherences.len());
+            self.coherence_files.push(own);
+        }
+        self.coherence_files.push((path, coherences.len()));
+        self.coherences.extend(coherences);
+    }
+
+    /// Whether it has data sets that were passed over.
+    fn has_skipped(&self) -> bool {
+        !(self.skipped_functions.is_empty() && self.skipped_datasets.is_empty())
+    }
+
+    /// What was passed over in a universal file, a line for each kind: such as `3 × time response (data set 58)`.
+    #[must_use]
+    pub fn skipped(&self) -> Vec<String> {
+        in_words(&self.skipped_functions, &self.skipped_datasets)
     }
 
     /// The functions of several files as those of one, such as files with one reference each.
@@ -168,10 +203,10 @@ impl FrfReading {
             }
             all.agree_on_averages(&next)?;
             all.functions.extend(next.functions);
-            all.coherences.extend(next.coherences);
+            all.extend_coherences(next.path, next.coherences);
             all.not_selected.extend(next.not_selected);
             all.skipped_functions.extend(next.skipped_functions);
-            all.skipped_datasets += next.skipped_datasets;
+            all.skipped_datasets.extend(next.skipped_datasets);
             all.statements.extend(next.statements);
         }
         Ok(all)
@@ -186,7 +221,7 @@ impl FrfReading {
             return Err(FrfError::NoCoherence { path: other.path });
         }
         self.agree_on_averages(&other)?;
-        self.coherences.extend(other.coherences);
+        self.extend_coherences(other.path, other.coherences);
         Ok(self)
     }
 

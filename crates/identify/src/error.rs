@@ -56,6 +56,14 @@ pub enum IdentifyError {
         /// A point that both have.
         point: Dof,
     },
+    /// A file without the functions that are asked for, which is named for something else, too.
+    #[error("{source}; the study names this file for {}: is it meant for both?", roles.join(" and for "))]
+    NamedTwice {
+        /// What is wrong with it.
+        source: Box<FrfError>,
+        /// What it is named for.
+        roles: Vec<&'static str>,
+    },
     /// The study cannot be used, or a file that it names cannot be read.
     #[error(transparent)]
     Study(#[from] StudyError),

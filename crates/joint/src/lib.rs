@@ -11,7 +11,6 @@ mod error;
 mod friction;
 mod higher;
 mod law;
-mod nearest;
 mod passivity;
 mod problem;
 mod read;
@@ -30,7 +29,6 @@ pub use friction::Friction;
 pub use higher::HigherTerms;
 pub use law::LawError;
 pub use law::displacements;
-pub use nearest::nearest;
 pub use passivity::{MatrixPassivity, Passivity};
 pub use problem::JointProblem;
 pub use record::{

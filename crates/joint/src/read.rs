@@ -6,9 +6,8 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::{Value, error::Category};
 
-use super::nearest::nearest;
 use super::{Format, JointFile, JointFileError, TextPlace};
-use bolted_joint_files::{Encoding, text_file};
+use bolted_joint_files::{Encoding, nearest, text_file};
 
 impl JointFile {
     /// Reads and checks the joint file at `path`.

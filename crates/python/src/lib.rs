@@ -7,6 +7,7 @@
 mod command;
 mod functions;
 mod study_text;
+mod whole_file;
 
 use pyo3::prelude::*;
 
@@ -19,4 +20,6 @@ mod native {
     use super::functions::read_functions;
     #[pymodule_export]
     use super::study_text::{command_of, path_keys, to_json, to_toml};
+    #[pymodule_export]
+    use super::whole_file::write_file;
 }

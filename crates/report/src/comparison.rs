@@ -1,6 +1,6 @@
 //! Joints beside each other: each number with its interval of 95 %, a column for each joint.
 
-use bolted_joint_compare::{Comparison, Difference, HALF, Measured, Row, Together};
+use bolted_joint_compare::{Comparison, Difference, HALF, Measured, Row, Together, UNLIKELY};
 use bolted_joint_figures::html::{
     escaped, figure, number, number_cell, percent, shown, table, with_deviation,
 };
@@ -10,9 +10,6 @@ use bolted_joint_joint::with_symbols;
 
 use crate::interval_figure::{Estimated, IntervalFigure, Panel};
 use crate::page::symbol;
-
-/// Below this a probability is as good as none; what it is rests on tails of distributions that nobody has seen.
-const UNLIKELY: f64 = 1e-10;
 
 /// The numbers with their intervals as an SVG document, a panel each; joints are numbered from 1.
 #[must_use]
@@ -83,7 +80,9 @@ pub fn comparison_page(comparison: &Comparison, written: Timestamp) -> String {
          value; in brackets they are in standard deviations σ of the difference of independent estimates.{}</p>\n\
          {together}{notes}<h2>Intervals</h2>\n{}",
         table(&headings, &rows),
-        unknown_parts(comparison),
+        comparison
+            .unknown_parts()
+            .map_or_else(String::new, |why| format!(" {why}")),
         figure(
             "intervals",
             "Values with intervals of 95 %, where the files give deviations.",
@@ -146,25 +145,13 @@ fn signed(value: f64, text: &str) -> String {
     }
 }
 
-/// Why differences are no parts of some values.
-fn unknown_parts(comparison: &Comparison) -> &'static str {
-    let mut differences = comparison
-        .rows
-        .iter()
-        .flat_map(|row| &row.differences)
-        .flatten();
-    match differences.any(|own| own.relative.is_none()) {
-        true => {
-            " Where there is a dash, the first value cannot be told from zero by its own deviation, so that no part of it says anything."
-        }
-        false => "",
-    }
-}
-
 fn all_together(place: usize, own: Together) -> String {
-    let probability = match own.probability {
-        tiny if tiny < UNLIKELY => "less than 10<sup>−10</sup>".to_owned(),
-        known => shown(known, 2),
+    let probability = match own.likely() {
+        Some(known) => shown(known, 2),
+        None => format!(
+            "less than {}",
+            shown(UNLIKELY, 1).trim_start_matches("1 × ")
+        ),
     };
     format!(
         "<p>Joint {place} against joint 1, all {} unknowns together: <i>χ</i>² = {}, which joints that are the same exceed \

@@ -1,20 +1,21 @@
 //! A first study from the files of a folder, with a comment at everything that its author has to decide.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use bolted_joint_frf::structure::ModalModel;
-use bolted_joint_frf::{Direction, Dof, ReadOptions, read_frfs};
 use thiserror::Error;
 
 use crate::FileKind;
-use crate::shown::some;
 
+mod candidate;
+mod few;
+mod plane;
 mod roles;
 mod space;
 
+use self::candidate::{Candidate, candidate, together, with_modes_beside};
+use self::plane::{Part, Plane};
 use self::roles::{ToldBy, assembly, in_order};
 
 /// Points that a comment lists at most.
@@ -42,8 +43,8 @@ pub enum DraftError {
     },
     /// It has too few files.
     #[error(
-        "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT) or modes of two parts, and functions of their \
-         assembly; where a part is a beam that is computed, begin with examples/tutorial/new.toml instead{refused}",
+        "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT) or modes of parts, and functions of their \
+         assembly{refused}",
         path.display()
     )]
     TooFew {
@@ -51,71 +52,31 @@ pub enum DraftError {
         path: PathBuf,
         /// How many there are, in words.
         found: String,
-        /// Files that look like them but cannot be read, and why.
+        /// Files that look like them but cannot be read, and why; and those of other kinds.
         refused: String,
     },
-}
-
-/// A file that may be a part or the assembly.
-struct Candidate {
-    name: String,
-    /// Further files of the same responses, of other references.
-    further: Vec<String>,
-    is_modal: bool,
-    responses: BTreeSet<Dof>,
-    references: BTreeSet<Dof>,
-    /// Lowest and highest frequency, Hz.
-    band_hz: [f64; 2],
-    /// What is to be known of its functions.
-    warning: Option<String>,
-}
-
-impl Candidate {
-    /// Where something responds or is excited.
-    fn points(&self) -> BTreeSet<Dof> {
-        self.responses.union(&self.references).copied().collect()
-    }
-
-    /// Its file, or its files, as a study names them.
-    fn files(&self) -> String {
-        if self.further.is_empty() {
-            return format!("{:?}", self.name);
-        }
-        let all = std::iter::once(&self.name).chain(&self.further);
-        let all: Vec<String> = all.map(|name| format!("{name:?}")).collect();
-        format!("[{}]", all.join(", "))
-    }
-
-    /// Its file, or its files, for people.
-    fn named(&self) -> String {
-        let all = std::iter::once(&self.name).chain(&self.further);
-        all.map(String::as_str).collect::<Vec<_>>().join(" with ")
-    }
-
-    /// Whether both are of one measurement, which many programs write in one file for each reference.
-    fn is_beside(&self, other: &Self) -> bool {
-        let letters = |name: &str| name.replace(|c: char| c.is_ascii_digit(), "");
-        !self.is_modal
-            && !other.is_modal
-            && letters(&self.name) == letters(&other.name)
-            && self.responses == other.responses
-            && self.references.is_disjoint(&other.references)
-            && self.band_hz == other.band_hz
-    }
-
-    fn contains(&self, other: &Self) -> bool {
-        other.responses.is_subset(&self.responses) && other.references.is_subset(&self.references)
-    }
+    /// Their roles cannot be told.
+    #[error("{}: found {found}, {why}{refused}", path.display())]
+    Undecided {
+        /// The folder.
+        path: PathBuf,
+        /// The files.
+        found: String,
+        /// What they are, what was expected, and how to say it.
+        why: String,
+        /// As above.
+        refused: String,
+    },
 }
 
 /// A study for the files of a folder: of two parts, and of both together; or in space of a chain of parts, and of them all.
 ///
 /// Which file is which is told by names: `a`, `b`, and `assembly`, `joined`, `ab`, the names of two others put together or `c`; of
 /// functions in space by what they contain: the points of the assembly are those of all parts. Else the one that has to be functions
-/// and comes last by name is the assembly, and the study says that it was guessed.
+/// and comes last by name is the assembly, and the study says that it was guessed. A part without a file is a beam to be filled in.
 ///
 /// # Errors
-/// [`DraftError`] if the folder cannot be read, or has fewer than three such files.
+/// [`DraftError`] if the folder cannot be read, has no such files, or some that leave open which is which.
 pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     let entries = std::fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
     let entries = entries.map_err(|source| DraftError::Folder {
@@ -137,40 +98,89 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     }
     let is_in_space = found.iter().any(space::is_in_space);
     if !is_in_space {
-        found = together(found);
+        found = with_modes_beside(together(found));
     }
-    let place = assembly(&found, is_in_space);
-    let (Some((place, by)), true) = (place, found.len() >= 3) else {
-        let names: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
-        return Err(DraftError::TooFew {
-            path: folder.to_owned(),
-            found: match names.as_slice() {
-                [] => "no file of functions or modes in it".to_owned(),
-                names => names.join(", "),
-            },
-            refused,
-        });
+    let most = match (is_in_space, found.len()) {
+        (_, 0) => {
+            return Err(DraftError::TooFew {
+                path: folder.to_owned(),
+                found: "no file of functions or modes in it".to_owned(),
+                refused: refused + &other_tables(&paths),
+            });
+        }
+        (true, 1 | 2) => {
+            let why = "with points that move along three axes, expected functions of two parts or more and of all together; put them beside \
+                       each other";
+            return Err(undecided(folder, &found, why.to_owned(), refused));
+        }
+        (true, _) => space::MOST_PARTS,
+        (false, _) => 2,
+    };
+    if let (false, 1 | 2) = (is_in_space, found.len()) {
+        let names = found.clone();
+        let plane = few::roles(found);
+        let plane = plane.map_err(|why| undecided(folder, &names, why, refused.clone()))?;
+        return Ok(of_plane(&plane, &[], &refused));
+    }
+    let Some((place, by)) = assembly(&found, is_in_space) else {
+        let why = "which are modes, expected functions of the assembly as well".to_owned();
+        return Err(undecided(folder, &found, why, refused));
     };
     let assembly = found.remove(place);
     in_order(&mut found);
-    let most = if is_in_space { space::MOST_PARTS } else { 2 };
     let others = found.split_off(most.min(found.len()));
-    let [a, b, ..] = found.as_slice() else {
-        return Err(DraftError::TooFew {
-            path: folder.to_owned(),
-            found: assembly.name,
-            refused,
-        });
+    if is_in_space {
+        let parts: Vec<Option<&Candidate>> = found.iter().map(Some).collect();
+        let text = space::text(&found, &assembly, by);
+        let hint = "places near the joint are to be filled in: look for CHECK in the study";
+        let notes = notes(&parts, &assembly, by, &others, &refused, hint);
+        return Ok(Draft { text, notes });
+    }
+    let mut parts = found.into_iter().map(Part::of);
+    let (a, b) = (parts.next(), parts.next());
+    let plane = Plane {
+        a: a.unwrap_or(Part::Beam),
+        b: b.unwrap_or(Part::Beam),
+        assembly,
+        by,
     };
-    let parts = found.iter().zip('a'..);
-    let parts: Vec<String> = parts
-        .map(|(own, letter)| format!("{letter} {}", own.named()))
-        .collect();
+    Ok(of_plane(&plane, &others, &refused))
+}
+
+fn of_plane(plane: &Plane, others: &[Candidate], refused: &str) -> Draft {
+    let parts = [plane.a.file(), plane.b.file()];
+    let hint = "the points of the joint are guesses: look for CHECK in the study";
+    Draft {
+        text: plane.text(),
+        notes: notes(&parts, &plane.assembly, plane.by, others, refused, hint),
+    }
+}
+
+/// What the author of a study has to know.
+fn notes(
+    parts: &[Option<&Candidate>],
+    assembly: &Candidate,
+    by: ToldBy,
+    others: &[Candidate],
+    refused: &str,
+    hint: &str,
+) -> Vec<String> {
+    let told = parts.iter().zip('a'..).map(|(own, letter)| {
+        let named = own.map_or_else(|| "a beam".to_owned(), Candidate::named);
+        format!("{letter} {named}")
+    });
     let mut notes = vec![format!(
         "part {}, the assembly {}",
-        parts.join(", part ").replacen(' ', " is taken to be ", 1),
+        told.collect::<Vec<_>>()
+            .join(", part ")
+            .replacen(' ', " is taken to be ", 1),
         assembly.named()
     )];
+    if parts.iter().any(Option::is_none) {
+        notes.push(
+            "of a beam there is no file: fill in its numbers, which are 0 in the study, or name frf or modal".to_owned(),
+        );
+    }
     if by == ToldBy::Order {
         notes.push(
             "which file is which was guessed by the order of their names: look for CHECK in the study, or call them a, b and assembly"
@@ -184,7 +194,7 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
             names.collect::<Vec<_>>().join(", ")
         ));
     }
-    let used = found.iter().chain([&assembly]);
+    let used = parts.iter().flatten().copied().chain([assembly]);
     notes.extend(
         used.filter_map(|own| own.warning.as_ref())
             .map(|own| format!("warning: {own}")),
@@ -192,110 +202,31 @@ pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
     if !refused.is_empty() {
         notes.push(format!("not read: {}", refused.trim_start_matches("; ")));
     }
-    notes.push(match is_in_space {
-        true => "places near the joint are to be filled in: look for CHECK in the study".to_owned(),
-        false => "the points of the joint are guesses: look for CHECK in the study".to_owned(),
-    });
-    Ok(Draft {
-        text: match is_in_space {
-            true => space::text(&found, &assembly, by),
-            false => text(a, b, &assembly, by),
-        },
-        notes,
-    })
+    notes.push(hint.to_owned());
+    notes
 }
 
-/// Files of one measurement as one.
-fn together(found: Vec<Candidate>) -> Vec<Candidate> {
-    let mut all: Vec<Candidate> = Vec::new();
-    for own in found {
-        match all.iter_mut().find(|other| other.is_beside(&own)) {
-            Some(first) => {
-                first.further.push(own.name);
-                first.references.extend(own.references);
-            }
-            None => all.push(own),
-        }
-    }
-    all
-}
-
-/// `None` for a file of another kind.
-fn candidate(path: &Path) -> Option<Result<Candidate, String>> {
-    let name = path.file_name()?.to_str()?.to_owned();
-    match FileKind::of(path) {
-        FileKind::Functions(_) => {
-            let read = read_frfs(path, &ReadOptions::default()).and_then(|reading| {
-                let warning = reading.phase_warning();
-                reading.into_set().map(|set| (set, warning))
-            });
-            Some(
-                read.map_err(|refused| refused.to_string())
-                    .map(|(set, warning)| {
-                        let hz = set.frequency_hz();
-                        Candidate {
-                            name,
-                            further: Vec::new(),
-                            is_modal: false,
-                            responses: set.functions().map(|own| own.0).collect(),
-                            references: set.functions().map(|own| own.1).collect(),
-                            band_hz: [hz[0], hz[hz.len() - 1]],
-                            warning,
-                        }
-                    }),
-            )
-        }
-        FileKind::Modes => Some(
-            ModalModel::read(path)
-                .map_err(|refused| refused.to_string())
-                .map(|model| {
-                    let last = model
-                        .modes()
-                        .iter()
-                        .map(|mode| mode.frequency_hz)
-                        .fold(0.0, f64::max);
-                    let points: BTreeSet<Dof> = model.points().iter().copied().collect();
-                    Candidate {
-                        name,
-                        further: Vec::new(),
-                        is_modal: true,
-                        responses: points.clone(),
-                        references: points,
-                        band_hz: [0.0, last],
-                        warning: None,
-                    }
-                }),
-        ),
-        _ => None,
+fn undecided(folder: &Path, found: &[Candidate], why: String, refused: String) -> DraftError {
+    let names: Vec<String> = found.iter().map(Candidate::named).collect();
+    DraftError::Undecided {
+        path: folder.to_owned(),
+        found: names.join(" and "),
+        why,
+        refused,
     }
 }
 
-fn text(a: &Candidate, b: &Candidate, assembly: &Candidate, by: ToldBy) -> String {
-    let points: Vec<String> = assembly
-        .points()
-        .iter()
-        .map(|own| format!("\"{own}\""))
-        .collect();
-    format!(
-        "# A joint between two parts, from functions of each part and of both together.\n\
-         # Keys: docs/file-formats.md. CHECK: what only you can know.\n\
-         method = \"frf-decoupling\"\nname = \"joint of {} and {}\"          # CHECK: what the joint is called\n\n\
-         [a]                                   # {}\n{}\n[b]                                   # {}\n{}\n\
-         [assembly]                            # {}\nfrf = {}\n\
-         points = [{}]   # CHECK: points of part b (points_on_a for those of a)\n\n\
-         [joint]\n{}\n\n{}",
-        stem(a),
-        stem(b),
-        by.comment("the first part"),
-        part(a),
-        by.comment("the second part"),
-        part(b),
-        by.comment("both, bolted together"),
-        assembly.files(),
-        points.join(", "),
-        model(&[a, b]),
-        frequency(&[a, b, assembly], "three"),
-    )
+/// Tables that other methods begin with.
+fn other_tables(paths: &[PathBuf]) -> String {
+    let mut text = String::new();
+    for path in paths {
+        if let FileKind::Table(kind) = FileKind::of(path)
+            && let Some(taker) = kind.taken_by()
+        {
+            let _ = write!(text, "; {} is {kind}, for {taker}", path.display());
+        }
+    }
+    text
 }
 
 /// The band that all files have.
@@ -304,52 +235,10 @@ fn frequency(all: &[&Candidate], many: &str) -> String {
         [from.max(own.band_hz[0]), to.min(own.band_hz[1])]
     });
     format!(
-        "[frequency]                           # Hz; what all {many} files have\nfrom = {}\nto = {}\n",
+        "[frequency]                           # Hz; {many}\nfrom = {}\nto = {}\n",
         toml_float(from),
         toml_float(to),
     )
-}
-
-/// The joint model that these parts have functions for.
-fn model(parts: &[&Candidate]) -> String {
-    let turns = |own: &&Candidate| own.points().iter().any(|dof| dof.direction().is_rotation());
-    if parts.iter().all(turns) {
-        "model = \"full\"                        # or \"translation\", \"diagonal\"".to_owned()
-    } else {
-        "model = \"translation\"                 # \"full\" or \"diagonal\" where theta is given on both parts".to_owned()
-    }
-}
-
-/// The file of a part, and where the joint is on it.
-fn part(own: &Candidate) -> String {
-    let points = own.points();
-    let y = points.iter().find(|dof| !dof.direction().is_rotation());
-    let theta = points.iter().find(|dof| is_turn_beside(**dof, y.copied()));
-    let key = if own.is_modal { "modal" } else { "frf" };
-    let turn = theta.map_or_else(String::new, |dof| format!(", theta = \"{dof}\""));
-    let lever = match theta {
-        Some(_) => "",
-        None => {
-            "# CHECK: or theta = { points = [\"…\", \"…\", \"…\"], spacing = 0.015 } of three sensors in a row\n"
-        }
-    };
-    let place = y.map_or_else(String::new, Dof::to_string);
-    format!(
-        "{key} = {}\njoint = {{ y = \"{place}\"{turn} }}   # CHECK: where the joint is; points: {}\n{lever}",
-        own.files(),
-        some(&points, LISTED)
-    )
-}
-
-/// Whether a rotation goes with what bends along `y`: one about the same axis is a twist.
-fn is_turn_beside(dof: Dof, y: Option<Dof>) -> bool {
-    let about = match dof.direction() {
-        Direction::RX => Direction::X,
-        Direction::RY => Direction::Y,
-        Direction::RZ => Direction::Z,
-        _ => return false,
-    };
-    y.is_none_or(|y| y.direction() != about)
 }
 
 fn stem(own: &Candidate) -> String {

@@ -39,12 +39,7 @@ fn shown(reading: FrfReading) -> Result<Shown, ShowError> {
     let summary = reading.summary();
     let formats: Vec<String> = summary.formats.iter().map(ToString::to_string).collect();
     let mut shown = Shown::of(formats.join(", "));
-    let skipped: Vec<&str> = reading
-        .skipped_functions
-        .iter()
-        .map(|own| own.kind)
-        .collect();
-    let others = reading.skipped_datasets;
+    let skipped = reading.skipped();
     let taken = reading.taken().iter();
     let taken: Vec<String> = taken
         .map(|(what, name)| format!("{what} from {name}"))
@@ -55,7 +50,11 @@ fn shown(reading: FrfReading) -> Result<Shown, ShowError> {
     let units_are_stated = reading.units_are_stated();
     if reading.functions().is_empty() && !reading.coherences.is_empty() {
         coherences_alone(&reading, &mut shown);
+        shown.facts_of("passed over", skipped);
         return Ok(shown);
+    }
+    if reading.functions().is_empty() && !skipped.is_empty() {
+        return Ok(without_functions(&reading));
     }
     let set = reading.into_set()?;
     between(&set, &mut shown);
@@ -70,24 +69,22 @@ fn shown(reading: FrfReading) -> Result<Shown, ShowError> {
                 .to_owned(),
         );
     }
-    if !skipped.is_empty() {
-        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
-        skipped
-            .iter()
-            .for_each(|kind| *kinds.entry(kind).or_default() += 1);
-        let kinds = kinds
-            .iter()
-            .map(|(kind, count)| format!("{count} × {kind}"));
-        shown.fact("passed over", kinds.collect::<Vec<_>>().join(", "));
-    }
-    if others > 0 {
-        shown.fact(
-            "other sets",
-            format!("{} that hold no functions", counted(others, "data set")),
-        );
-    }
+    shown.facts_of("passed over", skipped);
     shown.pictures = pictures(&set);
     Ok(shown)
+}
+
+/// A universal file of other measurements, of a mesh, or of remarks alone.
+fn without_functions(reading: &FrfReading) -> Shown {
+    let mut shown = Shown::of("universal file without frequency response functions");
+    let datasets = reading.skipped();
+    shown.detail("data_sets", datasets.clone());
+    shown.facts_of("data sets", datasets);
+    shown.fact(
+        "functions",
+        "none: export the measurement as data sets 58 of function type 4 (frequency response function)",
+    );
+    shown
 }
 
 /// A file that belongs beside one of functions.

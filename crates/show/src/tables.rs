@@ -79,7 +79,7 @@ impl TableKind {
     }
 
     /// Who takes it.
-    fn taken_by(self) -> Option<&'static str> {
+    pub(crate) fn taken_by(self) -> Option<&'static str> {
         match self {
             Self::Sine => Some("[[sine]] of a study of method \"lap-response\""),
             Self::Backbone => Some("[[backbone]] of a study of method \"lap-response\""),

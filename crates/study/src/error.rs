@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use bolted_joint_files::misspelt::{between, did_you_mean};
 use bolted_joint_files::text_file::TextFileError;
 
 /// Why a study cannot be used.
@@ -62,11 +63,13 @@ impl StudyError {
         found: impl Display,
         expected: impl Display,
     ) -> Self {
+        let (found, expected) = (found.to_string(), expected.to_string());
+        let meant = meant(&found, &expected);
         Self::Value {
             path: path.to_owned(),
             key: key.to_string(),
-            found: found.to_string(),
-            expected: expected.to_string(),
+            found,
+            expected: expected + &meant,
         }
     }
 
@@ -80,6 +83,42 @@ impl StudyError {
             path: path.to_owned(),
             key: key.map(str::to_owned),
             source: Box::new(source),
+        }
+    }
+}
+
+/// The word in quotes that one in quotes was meant to be; nothing where the message says so already.
+fn meant(found: &str, expected: &str) -> String {
+    let word = found
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    // what follows is an example
+    let known = expected.split("such as").next().unwrap_or_default();
+    match word.filter(|_| !expected.contains("did you mean")) {
+        Some(word) => did_you_mean(word, &between(known, '"')),
+        None => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_gets_the_one_that_was_meant() {
+        #[rustfmt::skip]
+        let cases = [
+            ("\"bolt-crcle\"", "\"bolts\" or \"bolt-circle\"", "; did you mean `bolt-circle`?"),
+            ("\"weld\"", "\"bolts\" or \"bolt-circle\"", ""),
+            ("\"1:+Y\"", "a point such as \"11:+Y\"", ""),
+            ("\"a.uf\", which is not there", "a file such as \"a.uff\"", ""),
+            ("\"bolts \"", "\"bolts\"; did you mean it?", ""),
+            ("5", "\"bolts\"", ""),
+        ];
+        for (found, expected, meant) in cases {
+            let error = StudyError::value(Path::new("s.toml"), "model", found, expected);
+            let message = format!("s.toml: `model`: found {found}, expected {expected}{meant}");
+            assert_eq!(error.to_string(), message);
         }
     }
 }

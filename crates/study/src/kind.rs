@@ -1,6 +1,6 @@
 //! What a TOML file of this program is for: told by its keys, and where it cannot be parsed by its lines.
 
-use bolted_joint_joint::nearest;
+use bolted_joint_files::nearest;
 
 use super::{Method, StudyText};
 
@@ -31,13 +31,17 @@ impl StudyText {
 
 fn of_table(table: &toml::Table) -> Option<TextKind> {
     let is_table = |key: &str| table.get(key).is_some_and(toml::Value::is_table);
-    let is_list = |key: &str| table.get(key).is_some_and(toml::Value::is_array);
+    // a misspelt one is meant as well: the reader of modes says so
+    let means_list = |wanted: &str| {
+        let mut lists = table.iter().filter(|(_, value)| value.is_array());
+        lists.any(|(key, _)| nearest(key, &[wanted]).is_some())
+    };
     if let Some(toml::Value::String(method)) = table.get("method") {
         return Some(TextKind::Study(Method::named(method)));
     }
     if is_table("structures") {
         Some(TextKind::Assembly)
-    } else if is_list("points") && is_list("mode") {
+    } else if means_list("points") && means_list("mode") {
         Some(TextKind::Modes)
     } else {
         // misspelt: the reader of studies says so
@@ -85,6 +89,8 @@ mod tests {
             ("joints = 1\n[structures.a]\nmatrices = a.npz\n", Some(TextKind::Assembly)),
             (modes, Some(TextKind::Modes)),
             ("points = [\"1:+Y\"\n[[mode]]\n", Some(TextKind::Modes)),
+            ("pionts = [\"1:+Y\"]\n[[mode]]\nfrequency_hz = 1\n", Some(TextKind::Modes)),
+            ("points = [\"1:+Y\"]\n[[modes]]\nfrequency_hz = 1\n", Some(TextKind::Modes)),
             ("method = 1\n", None),
             ("", None),
             ("{ \"format\": 1 }", None),

@@ -4,7 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use bolted_joint_joint::nearest;
+use bolted_joint_files::misspelt::did_you_mean;
+use bolted_joint_files::nearest;
 use toml::{Table, Value};
 
 use super::{StudyError, StudyText};
@@ -97,19 +98,36 @@ impl StudyText {
         let expected = "the path of a file, relative to the study's own folder";
         let advice = match missing.name.contains(char::is_control) {
             true => format!("; {ESCAPES}"),
-            false => suggestion(&missing.path),
+            false => self.suggestion(&missing.path),
         };
         self.refuse(&missing.key, found, format_args!("{expected}{advice}"))
     }
+
+    /// A file that may have been meant: beside the missing one or, where its folder is missing, of its name beside the study.
+    fn suggestion(&self, missing: &Path) -> String {
+        let name = missing.file_name().and_then(|name| name.to_str());
+        let is_away = missing.parent().is_some_and(|folder| !is_here(folder));
+        let beside = name.filter(|name| is_away && self.resolved(Path::new(name)).exists());
+        match beside {
+            Some(name) => format!("; did you mean `{name}`?"),
+            None => alike(missing),
+        }
+    }
+}
+
+/// Whether a path is that of a folder that is there; a path without any is.
+fn is_here(folder: &Path) -> bool {
+    folder.as_os_str().is_empty() || folder.is_dir()
 }
 
 /// What is said where a backslash in a text of TOML was meant as such.
 pub(super) const ESCAPES: &str =
     "in \"…\" a backslash begins an escape: write a path in '…', or with forward slashes";
 
-/// A file beside the missing one that may have been meant.
-fn suggestion(missing: &Path) -> String {
+/// What is beside a missing file and called nearly like it; or beside its folder, where that is missing as well.
+fn alike(missing: &Path) -> String {
     let folder = match missing.parent() {
+        Some(folder) if !is_here(folder) => return alike(folder),
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
@@ -122,12 +140,12 @@ fn suggestion(missing: &Path) -> String {
     // that endings are alike says nothing
     let stem = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
     let wanted = missing.file_name().and_then(|name| name.to_str());
-    let meant = wanted.and_then(|wanted| {
-        let name = nearest(wanted, &names)?;
-        nearest(&stem(wanted), &[stem(name).as_str()])?;
-        Some(name)
-    });
-    meant.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+    let wanted = wanted.unwrap_or_default();
+    let names: Vec<&str> = names
+        .into_iter()
+        .filter(|name| nearest(&stem(wanted), &[stem(name).as_str()]).is_some())
+        .collect();
+    did_you_mean(wanted, &names)
 }
 
 #[cfg(test)]
@@ -153,6 +171,19 @@ mod tests {
             "{refused}"
         );
         assert!(refused.ends_with("did you mean `beam.uff`?"), "{refused}");
+        fs::create_dir(folder.path().join("measured")).unwrap();
+        for (name, meant) in [
+            ("data/beam.uff", "beam.uff"),
+            ("mesured/b.uff", "measured"),
+            ("Beam.UFF", "beam.uff"),
+        ] {
+            let text = format!("[a]\nfrf = \"{name}\"\n");
+            let study = StudyText::new(text, &folder.path().join("study.toml"));
+            let refused = study.check_is_there(&study.named_files());
+            let refused = refused.unwrap_err().to_string();
+            let meant = format!("did you mean `{meant}`?");
+            assert!(refused.ends_with(&meant), "{refused}");
+        }
         let refused = study.check_is_there(&files[3..]).unwrap_err().to_string();
         assert!(refused.contains("\"C:\\temp.uff\""), "{refused}");
         assert!(refused.ends_with(ESCAPES), "{refused}");

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use bolted_joint_files::text_file;
-use bolted_joint_joint::nearest;
+use bolted_joint_files::misspelt::with_meant;
+use bolted_joint_files::{nearest, text_file};
 
 use super::named::ESCAPES;
 use super::{Method, StudyError};
@@ -68,10 +68,13 @@ impl StudyText {
     /// values of another type.
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
         toml::from_str(&self.text).map_err(|error| {
-            let message = with_suggestion(error.to_string().trim_end());
+            let message = error.to_string();
             let message = match self.is_escape(&error) {
-                true => format!("{message}; {ESCAPES}"),
-                false => self.with_misspelt(message),
+                true => format!("{}; {ESCAPES}", message.trim_end()),
+                false => {
+                    let table = toml::from_str::<toml::Table>(&self.text).unwrap_or_default();
+                    with_meant(message.trim_end(), table.keys().map(String::as_str))
+                }
             };
             StudyError::Syntax {
                 path: self.path.clone(),
@@ -95,22 +98,6 @@ impl StudyText {
                 .skip(1)
                 .step_by(2)
                 .any(|text| text.contains('\\'))
-    }
-
-    /// A message of the parser's; where a key is missing, with the one that may have been meant for it.
-    fn with_misspelt(&self, message: String) -> String {
-        let missing = message
-            .split_once(MISSING)
-            .and_then(|(_, rest)| rest.split('`').next());
-        let Some(missing) = missing else {
-            return message;
-        };
-        let table = toml::from_str::<toml::Table>(&self.text).unwrap_or_default();
-        let found = table.keys().find(|key| nearest(key, &[missing]).is_some());
-        match found {
-            Some(found) => format!("{message}; found `{found}`, did you mean `{missing}`?"),
-            None => message,
-        }
     }
 
     /// The method that the study asks for, whatever else is in it.
@@ -150,26 +137,6 @@ impl StudyText {
         expected: impl Display,
     ) -> StudyError {
         StudyError::value(&self.path, key, found, expected)
-    }
-}
-
-/// What serde says of a key that does not belong.
-const UNKNOWN: [&str; 2] = ["unknown field `", "unknown variant `"];
-
-/// What serde says of a key that is missing.
-const MISSING: &str = "missing field `";
-
-/// A message of the parser's; where a key or a word is not known, with the one that it was meant to be.
-fn with_suggestion(message: &str) -> String {
-    let suggestion = UNKNOWN.iter().find_map(|begin| {
-        let (found, expected) = message.split_once(begin)?.1.split_once('`')?;
-        // every other piece between backquotes is a key
-        let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
-        nearest(found, &known)
-    });
-    match suggestion {
-        Some(key) => format!("{message}; did you mean `{key}`?"),
-        None => message.to_owned(),
     }
 }
 

@@ -39,8 +39,8 @@ pub(super) fn run(arguments: &PredictArguments, study: &StudyText) -> Result<(),
         ],
     )?;
     let study = LayeredBeamStudy::of(study)?;
-    let progress = Progress::new("predicting", 0);
-    let found = study.run()?;
+    let progress = Progress::new("predicting", study.draws() as usize);
+    let found = study.run_watched(&|| progress.advance())?;
     drop(progress);
     let joint_file = found.joint_file.to_json()?;
     let mut files = Outputs::new();

@@ -57,6 +57,13 @@ const COHERENCE: &[&str] = &["coherence", "coh", "gamma_squared", "gamma2"];
 /// More functions than any test has: a thousand responses to a thousand references.
 const MOST_FUNCTIONS: usize = 1 << 20;
 
+/// Whether an array of this name is one of those that functions need.
+pub(super) fn is_of_functions(name: &str) -> bool {
+    let roles = [FREQUENCY, MATRIX, RESPONSE, REFERENCE, COHERENCE];
+    let mut known = roles.into_iter().flatten();
+    known.any(|known| known.eq_ignore_ascii_case(name))
+}
+
 /// Reads the functions of a file of arrays, if it could be opened.
 pub(crate) fn functions<F: ArrayFile>(
     opened: Result<F, TableProblem>,

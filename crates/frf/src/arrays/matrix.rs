@@ -163,8 +163,9 @@ impl Functions<'_> {
             averages: self.options.averages_or(averages),
             not_selected: BTreeSet::new(),
             skipped_functions: Vec::new(),
-            skipped_datasets: 0,
+            skipped_datasets: Vec::new(),
             statements: Statements::default(),
+            coherence_files: Vec::new(),
             taken: Vec::new(),
         };
         if stated.is_empty() {

@@ -3,6 +3,9 @@
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
+use bolted_joint_files::nearest;
+
+use super::functions::is_of_functions;
 use super::matrices::{MASS, STIFFNESS};
 use super::{Array, ArrayFile, Element, Kind};
 use crate::{Dof, Quantity, TableProblem};
@@ -80,7 +83,7 @@ impl<F: ArrayFile> Members<'_, F> {
                 format_args!("the arrays {}, matrices of a structure", self.there()),
                 "functions over frequency; what has no functions is named by the key `matrices` of a study or an assembly",
             ),
-            false => self.missing(wanted, F::SAVE),
+            false => self.missing(names, wanted, F::SAVE),
         })
     }
 
@@ -91,7 +94,7 @@ impl<F: ArrayFile> Members<'_, F> {
         wanted: &'static str,
     ) -> Result<String, TableProblem> {
         self.find(names)?
-            .ok_or_else(|| self.missing(wanted, F::SAVE_MATRICES))
+            .ok_or_else(|| self.missing(names, wanted, F::SAVE_MATRICES))
     }
 
     fn has_matrices(&self) -> bool {
@@ -99,10 +102,16 @@ impl<F: ArrayFile> Members<'_, F> {
         has(MASS) && has(STIFFNESS)
     }
 
-    fn missing(&self, wanted: &'static str, save: &str) -> TableProblem {
+    fn missing(&self, names: &[&str], wanted: &'static str, save: &str) -> TableProblem {
+        // what is something else is not misspelt
+        let mut others = self.0.names().iter().filter(|own| !is_of_functions(own));
+        let meant = others.find_map(|own| Some((own, nearest(own, names)?)));
+        let meant = meant.map_or_else(String::new, |(own, meant)| {
+            format!("; found `{}`, did you mean `{meant}`?", crate::shown(own))
+        });
         TableProblem::whole(
             format_args!("the arrays {}", self.there()),
-            format_args!("{wanted}; save them with {save}{}", F::HINT),
+            format_args!("{wanted}; save them with {save}{}{meant}", F::HINT),
         )
     }
 
@@ -330,7 +339,8 @@ fn one_axis(name: &str, array: &impl Array) -> Result<(), TableProblem> {
 }
 
 pub(super) fn quantity(text: &str) -> Result<Quantity, TableProblem> {
-    let expected = "receptance, mobility or accelerance";
-    Quantity::named(text)
-        .ok_or_else(|| value("quantity", format!("\"{}\"", crate::shown(text)), expected))
+    Quantity::named(text).ok_or_else(|| {
+        let found = format!("\"{}\"", crate::shown(text));
+        value("quantity", found, Quantity::instead_of(text))
+    })
 }

@@ -19,6 +19,16 @@ pub(super) enum Part {
 }
 
 impl Part {
+    /// Its words, as messages list them.
+    pub(super) const WORDS: [&'static str; 6] = [
+        "real",
+        "imaginary",
+        "complex",
+        "magnitude",
+        "phase",
+        "coherence",
+    ];
+
     fn from_word(word: &str) -> Option<Self> {
         Some(match word.to_lowercase().as_str() {
             "real" | "re" => Self::Real,
@@ -87,12 +97,39 @@ pub(super) struct Columns {
 }
 
 /// One column as its name says.
+#[derive(Clone)]
 pub(super) struct Column {
+    /// What stands in the file.
+    pub(super) name: String,
     pub(super) response: Dof,
     pub(super) reference: Dof,
-    pub(super) part: Part,
-    quantity: Option<Quantity>,
+    /// `None` until a row below the names says it.
+    pub(super) part: Option<Part>,
+    pub(super) quantity: Option<Quantity>,
     pub(super) unit: Option<String>,
+}
+
+/// The part and the quantity that some words say; `None` for other words, and for two of a kind.
+pub(super) fn said(words: &str) -> Option<(Option<Part>, Option<Quantity>)> {
+    let (mut part, mut quantity) = (None, None);
+    for word in words.split_whitespace() {
+        match (Part::from_word(word), Quantity::named(word)) {
+            (Some(found), _) if part.is_none() => part = Some(found),
+            (None, Some(found)) if quantity.is_none() => quantity = Some(found),
+            _ => return None,
+        }
+    }
+    Some((part, quantity))
+}
+
+/// What is said of a name that does not tell what is in its column.
+pub(super) fn no_name(name: &str, column: usize) -> TableProblem {
+    TableProblem::at(
+        format_args!("column {column}"),
+        format_args!("the name \"{}\"", crate::shown(name)),
+        "RESPONSE/REFERENCE, one of real, imaginary, complex, magnitude, phase and coherence, and perhaps a quantity and a [unit], such as \
+         \"11:+Y/2:+Y accelerance real [m/s^2/N]\"; what it holds may also stand in a row below",
+    )
 }
 
 /// A name without its unit, which stands in brackets at the end, or behind a blank in parentheses.
@@ -113,38 +150,22 @@ impl Column {
     /// A column by its name; `column` counts from 1.
     pub(super) fn read(name: &str, column: usize) -> Result<Self, TableProblem> {
         let at = || format!("column {column}");
-        let no_name = || {
-            TableProblem::at(
-                at(),
-                format_args!("the name \"{}\"", crate::shown(name)),
-                "RESPONSE/REFERENCE, one of real, imaginary, complex, magnitude, phase and coherence, and perhaps a quantity and a [unit], such as \
-                 \"11:+Y/2:+Y accelerance real [m/s^2/N]\"",
-            )
-        };
+        let no_name = || no_name(name, column);
         let (text, unit) = split_unit(name);
-        let mut words = text.split_whitespace();
-        let (response, reference) = words
-            .next()
-            .and_then(|pair| pair.split_once('/'))
-            .ok_or_else(no_name)?;
+        let (pair, words) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        let (response, reference) = pair.split_once('/').ok_or_else(no_name)?;
         let dof = |text: &str| {
             text.parse::<Dof>()
                 .map_err(|source| TableProblem::Dof { at: at(), source })
         };
         let (response, reference) = (dof(response)?, dof(reference)?);
-        let (mut part, mut stated) = (None, None);
-        for word in words {
-            match (Part::from_word(word), Quantity::named(word)) {
-                (Some(found), _) if part.is_none() => part = Some(found),
-                (None, Some(found)) if stated.is_none() => stated = Some(found),
-                _ => return Err(no_name()),
-            }
-        }
+        let (part, quantity) = said(words).ok_or_else(no_name)?;
         Ok(Self {
+            name: crate::shown(name),
             response,
             reference,
-            part: part.ok_or_else(no_name)?,
-            quantity: stated,
+            part,
+            quantity,
             unit: unit.map(str::to_owned),
         })
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::column::{Column, Columns, Part, split_unit};
+use super::column::{Column, Columns, Part, no_name, split_unit};
 use crate::{Dof, Quantity, TableProblem};
 use bolted_joint_files::Decimal;
 use bolted_joint_files::text_table::{Cells, separator};
@@ -25,13 +25,14 @@ impl Keys {
         // a spreadsheet fills a comment up with empty cells
         let value = value.trim_end_matches([';', ',', '\t', ' ']);
         let value = value.trim().trim_matches('"');
-        let refused =
-            |key, expected| TableProblem::whole(format_args!("{key} = \"{value}\""), expected);
+        let refused = |key, expected: &str| {
+            TableProblem::whole(format_args!("{key} = \"{value}\""), expected)
+        };
         match key.trim().to_lowercase().as_str() {
             "quantity" => {
-                let expected = "receptance, mobility or accelerance";
-                self.quantity =
-                    Some(Quantity::named(value).ok_or_else(|| refused("quantity", expected))?);
+                let named = Quantity::named(value);
+                let unknown = || refused("quantity", &Quantity::instead_of(value));
+                self.quantity = Some(named.ok_or_else(unknown)?);
             }
             "unit" => self.unit = Some(value.to_owned()),
             "averages" => {
@@ -74,9 +75,9 @@ impl Above {
 
 /// The row of column names, as far as it has been read.
 pub(super) struct Names {
-    separator: char,
+    pub(super) separator: char,
     frequency_unit: Option<String>,
-    columns: Vec<Column>,
+    pub(super) columns: Vec<Column>,
 }
 
 /// What the header says of the table's columns.
@@ -95,13 +96,19 @@ impl Names {
         let mut cells = Cells::separated_by(separator);
         let names = cells.names(row);
         let frequency_unit = frequency_unit(names.first().copied().unwrap_or_default())?;
-        let columns = names.iter().enumerate().skip(1);
+        let mut columns: Vec<Column> = Vec::new();
+        for (index, name) in names.iter().enumerate().skip(1) {
+            let column = match columns.last() {
+                // cells of a spreadsheet that were joined
+                Some(before) if name.is_empty() && before.part.is_none() => before.clone(),
+                _ => Column::read(name, index + 1)?,
+            };
+            columns.push(column);
+        }
         Ok(Self {
             separator,
             frequency_unit,
-            columns: columns
-                .map(|(index, name)| Column::read(name, index + 1))
-                .collect::<Result<_, _>>()?,
+            columns,
         })
     }
 
@@ -167,7 +174,9 @@ impl Names {
         let mut parts: BTreeMap<(Dof, Dof), BTreeMap<Part, (usize, Column)>> = BTreeMap::new();
         for (index, column) in (1..).zip(self.columns) {
             let pair = (column.response, column.reference);
-            let part = column.part;
+            let Some(part) = column.part else {
+                return Err(no_name(&column.name, index + 1));
+            };
             if !parts.contains_key(&pair) {
                 order.push(pair);
             }

@@ -7,6 +7,7 @@ mod column;
 mod decibel;
 mod header;
 mod number;
+mod parts_row;
 mod phase;
 mod read;
 mod row;

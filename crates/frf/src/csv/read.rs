@@ -108,7 +108,14 @@ pub fn read_csv_from(
         }
     };
     let header_line = rows.number;
-    if rows.advance_to_cells()? {
+    let mut is_any = rows.advance_to_cells()?;
+    if is_any && names.are_parts(&rows.text()) {
+        names
+            .take_parts(&rows.text())
+            .map_err(|problem| rows.problem(problem))?;
+        is_any = rows.advance_to_cells()?;
+    }
+    if is_any {
         let text = rows.text();
         rows.held = !names.are_units(&text);
         if !rows.held {
@@ -208,7 +215,8 @@ pub fn read_csv_from(
         averages: options.averages_or(keys.averages),
         not_selected,
         skipped_functions: Vec::new(),
-        skipped_datasets: 0,
+        skipped_datasets: Vec::new(),
+        coherence_files: Vec::new(),
         statements,
         taken: Vec::new(),
     })

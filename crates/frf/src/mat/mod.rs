@@ -3,6 +3,7 @@
 //! *MAT-File Format*, The MathWorks, level 5 MAT-files.
 
 mod element;
+mod other_level;
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -16,6 +17,7 @@ use crate::structure::{NamedMatrices, StructureError};
 use crate::{FileFormat, FrfError, FrfReading, ReadOptions, TableProblem};
 
 use element::{COMPRESSED, Elements, MATRIX, UTF8, invalid};
+use other_level::other_level;
 
 /// Bytes before the first array.
 const HEADER: u64 = 128;
@@ -68,12 +70,13 @@ struct MatFile<R> {
 
 impl<R: Read + Seek> MatFile<R> {
     fn open(mut reader: R) -> Result<Self, TableProblem> {
-        let mut header = [0; HEADER as usize];
-        reader.read_exact(&mut header).map_err(|_| other_level())?;
-        let big_endian = match &header[124..] {
-            [0, 1, b'I', b'M'] => false,
-            [1, 0, b'M', b'I'] => true,
-            _ => return Err(other_level()),
+        let mut header = Vec::new();
+        let mut beginning = reader.by_ref().take(HEADER);
+        beginning.read_to_end(&mut header).map_err(damaged)?;
+        let big_endian = match header.get(124..HEADER as usize) {
+            Some([0, 1, b'I', b'M']) => false,
+            Some([1, 0, b'M', b'I']) => true,
+            _ => return Err(other_level(&header)),
         };
         let mut file = Self {
             reader,
@@ -385,17 +388,6 @@ impl From<io::Error> for Stop {
 /// More or fewer elements than the array states.
 fn cut_short() -> io::Error {
     invalid("another number of elements".to_owned())
-}
-
-/// No file of level 5.
-fn other_level() -> TableProblem {
-    let found = "no MATLAB file of level 5 (it may be one of -v7.3, which is HDF5, or of -v4)";
-    TableProblem::whole(
-        found,
-        format_args!(
-            "a file of {SAVE}; load the file in MATLAB and save it so, or read it with the Python module (read, with h5py)"
-        ),
-    )
 }
 
 fn damaged(error: io::Error) -> TableProblem {

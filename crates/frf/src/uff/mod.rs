@@ -6,6 +6,7 @@
 mod ahead;
 mod binary;
 mod data_type;
+mod dataset_name;
 mod datasets;
 mod degree_of_freedom;
 mod fields;

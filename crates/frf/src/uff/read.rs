@@ -1,10 +1,11 @@
 //! The data sets of a universal file from first to last.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::binary::Form;
+use super::dataset_name::dataset_name;
 use super::datasets::Units;
 use super::function_type::{COHERENCE, FREQUENCY_RESPONSE, function_type_name};
 use super::header::{Header, InRecord, RECORDS, function_type};
@@ -15,7 +16,8 @@ use crate::gathered::Gathered;
 use crate::read::opened;
 use crate::summary::Statements;
 use crate::{
-    Coherence, Dof, FileFormat, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedFunction,
+    Coherence, Dof, FileFormat, Frf, FrfError, FrfReading, ReadOptions, Selection, SkippedDatasets,
+    SkippedFunction, shown,
 };
 
 /// Reads the frequency response functions of a universal file.
@@ -66,7 +68,7 @@ pub(crate) fn read_uff58_of(
         not_selected: BTreeSet::new(),
         units: None,
         skipped_functions: Vec::new(),
-        skipped_datasets: 0,
+        skipped_datasets: BTreeMap::new(),
         datasets: 0,
     };
     while scan.dataset()? {}
@@ -89,7 +91,8 @@ struct Scan<'options, R> {
     not_selected: BTreeSet<(Dof, Dof)>,
     units: Units,
     skipped_functions: Vec<SkippedFunction>,
-    skipped_datasets: usize,
+    /// How many there are of each number.
+    skipped_datasets: BTreeMap<String, usize>,
     /// Data sets of any kind that have been met.
     datasets: usize,
 }
@@ -111,7 +114,7 @@ impl<R: BufRead> Scan<'_, R> {
             "164" => self.lines.read_units(&mut self.units, begun_at)?,
             _ => {
                 self.lines.pass_over(&begun)?;
-                self.skipped_datasets += 1;
+                *self.skipped_datasets.entry(begun.number).or_default() += 1;
             }
         }
         self.datasets += 1;
@@ -125,16 +128,17 @@ impl<R: BufRead> Scan<'_, R> {
         }
         let in_header = |lines: &Lines<R>, problem| in_header(lines, begun_at, problem);
         let kind = function_type(&records).map_err(|problem| in_header(&self.lines, problem))?;
-        let skipped = |line| SkippedFunction {
-            line,
+        let skipped = |between| SkippedFunction {
+            line: begun_at,
             kind: function_type_name(kind),
+            between,
         };
         let header = match Header::from_records(&records) {
             Ok(header) => header,
             // What is passed over need not be understood, unless it takes that to know where it ends.
             Err(_) if kind != FREQUENCY_RESPONSE && form.is_none() => {
                 self.lines.skip_rest("58", begun_at)?;
-                self.skipped_functions.push(skipped(begun_at));
+                self.skipped_functions.push(skipped(None));
                 return Ok(());
             }
             Err(problem) => return Err(in_header(&self.lines, problem)),
@@ -168,7 +172,9 @@ impl<R: BufRead> Scan<'_, R> {
             }
             (COHERENCE, Some(_)) => self.coherence(&header, gathered, begun_at)?,
             (COHERENCE, None) => {}
-            _ => self.skipped_functions.push(skipped(begun_at)),
+            _ => self
+                .skipped_functions
+                .push(skipped(Some((response, reference)))),
         }
         Ok(())
     }
@@ -251,8 +257,17 @@ impl<R: BufRead> Scan<'_, R> {
             averages: options.averages_or(None),
             not_selected: self.not_selected,
             skipped_functions: self.skipped_functions,
-            skipped_datasets: self.skipped_datasets,
+            skipped_datasets: self
+                .skipped_datasets
+                .into_iter()
+                .map(|(number, count)| SkippedDatasets {
+                    holds: dataset_name(&number),
+                    number: shown(&number),
+                    count,
+                })
+                .collect(),
             statements,
+            coherence_files: Vec::new(),
             taken: Vec::new(),
         })
     }

@@ -57,7 +57,8 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
         lines: Some(study.lines.clone()),
         ..Reader::default()
     };
-    let mut all = vec![assembly_lines(study, &mut reader)?];
+    let first = assembly_lines(study, &mut reader);
+    let mut all = vec![first.map_err(|error| mistaken::explained(study, error))?];
     for further in &study.further {
         let its_study = Study {
             a: further.a.clone(),
@@ -69,7 +70,8 @@ pub(super) fn lines(study: &Study, watch: &dyn Watch) -> Result<Assembled, Ident
             further: Vec::new(),
             ..study.clone()
         };
-        let mut lines = assembly_lines(&its_study, &mut reader)?;
+        let mut lines = assembly_lines(&its_study, &mut reader)
+            .map_err(|error| mistaken::explained(&its_study, error))?;
         // The same measurement of a substructure has the same errors in every assembly.
         for (earlier, earlier_study) in all.iter().zip(studies_before(study, all.len())) {
             let same_axis = earlier.frequency_hz.len() == lines.frequency_hz.len();

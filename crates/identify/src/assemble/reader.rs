@@ -55,28 +55,41 @@ impl Reader<'_> {
             selection: Selection::everything().within(from_hz, to_hz),
             ..options
         };
+        let mut of_files: Vec<(&Path, Vec<(Dof, Dof)>)> = Vec::new();
         for path in &file.coherence {
-            reading = reading.with_coherences_of(self.one(path, &options)?)?;
+            let own = self.one(path, &options)?;
+            let pairs = own.coherences.iter();
+            let pairs = pairs.map(|one| (one.response, one.reference)).collect();
+            of_files.push((path, pairs));
+            reading = reading.with_coherences_of(own)?;
         }
         self.warnings.extend(reading.units_warning());
         self.warnings.extend(reading.phase_warning());
         if !reading.coherences.is_empty() && reading.averages().is_none() {
+            let path = file.coherence.first().unwrap_or(&file.path);
             self.warnings.push(format!(
                 "{}: coherence is not used, since the number of averages is not known; state averages beside frf",
-                file.path.display()
+                path.display()
             ));
         }
-        let set = reading.into_set()?;
-        if let [path, ..] = &file.coherence[..]
-            && !set
-                .functions()
-                .any(|(p, q, _)| set.coherence(p, q).is_some())
-        {
-            self.warnings.push(format!(
-                "{}: none of its coherences belongs to a function of {}; correct the degrees of freedom in one of the two",
-                path.display(),
-                file.path.display()
-            ));
+        let left_out = reading.not_selected.clone();
+        let set = reading
+            .into_set()
+            .map_err(|refused| refused.asked_for(dofs))?;
+        for (path, pairs) in of_files {
+            let belongs = |&(response, reference): &(Dof, Dof)| {
+                let read = set.functions().map(|own| (own.0, own.1));
+                read.chain(left_out.iter().copied()).any(|(p, q)| {
+                    [p, p.flipped()].contains(&response) && [q, q.flipped()].contains(&reference)
+                })
+            };
+            if !pairs.iter().any(belongs) {
+                self.warnings.push(format!(
+                    "{}: none of its coherences belongs to a function of {}; correct the degrees of freedom in one of the two",
+                    path.display(),
+                    file.path.display()
+                ));
+            }
         }
         match &self.lines {
             Some(lines) => set

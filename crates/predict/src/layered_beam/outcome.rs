@@ -108,7 +108,10 @@ pub struct SlipRow {
 }
 
 impl Outcome {
-    pub(super) fn of(study: &LayeredBeamStudy) -> Result<Self, LayeredBeamError> {
+    pub(super) fn of(
+        study: &LayeredBeamStudy,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Self, LayeredBeamError> {
         let beam = &study.beam;
         let alpha_mu = match &study.friction {
             Friction::Known(alpha_mu) => *alpha_mu,
@@ -148,7 +151,7 @@ impl Outcome {
             .collect::<Result<_, LayeredBeamError>>()?;
         let scattered = study.scatter.as_ref();
         let scattered = scattered
-            .map(|scatter| scatter.run(study, &nominal, &over_torque))
+            .map(|scatter| scatter.run(study, &nominal, &over_torque, progress))
             .transpose()?;
         let lap = lap_file(study, &nominal, &over_torque, scattered.as_ref())?;
         let (mut modes, mut amplitudes) = (Vec::new(), Vec::new());

@@ -117,12 +117,18 @@ impl Scatter {
         }
     }
 
-    /// Draws everything; `over_torque` as in the study.
+    /// How many draws there are.
+    pub(super) fn draws(&self) -> u64 {
+        self.monte_carlo.draws
+    }
+
+    /// Draws everything; `over_torque` as in the study, `progress` is called after each draw.
     pub(super) fn run(
         &self,
         study: &LayeredBeamStudy,
         nominal: &SlipDamping,
         over_torque: &[(f64, SlipDamping)],
+        progress: &(dyn Fn() + Sync),
     ) -> Result<Scattered, LayeredBeamError> {
         let first = study.amplitudes_m.first().copied().unwrap_or(f64::NAN);
         let damper = match study.damping {
@@ -152,7 +158,7 @@ impl Scatter {
             }
             Ok(results)
         };
-        let outcome = self.monte_carlo.run(&self.inputs, &names, model, &|| ());
+        let outcome = self.monte_carlo.run(&self.inputs, &names, model, progress);
         let outcome = outcome.map_err(LayeredBeamError::MonteCarlo)?;
         Ok(Scattered {
             outcome,

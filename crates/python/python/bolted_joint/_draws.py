@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._command import BoltedJointError, in_page, path_of, run
+from . import _native
+from ._command import BoltedJointError, in_page, native, path_of, run
 from ._html import table
 from ._identify import Identification, found_in, repeated
 from ._joint import Joint
@@ -62,7 +63,7 @@ class Draws:
             raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file of draws.
+        """Writes the file of draws, whole or not at all.
 
         Parameters
         ----------
@@ -70,7 +71,7 @@ class Draws:
             The file to write.
         """
         path_of(path)
-        Path(path).write_text(self._text, encoding="utf-8")
+        native(_native.write_file, path, self._text.encode())
 
     def __len__(self) -> int:
         return len(self.numbers)

@@ -1,5 +1,6 @@
 """Frequency response functions as arrays."""
 
+import io
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -8,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _native
 from ._archive import unit
-from ._command import BoltedJointError, path_of
+from ._command import BoltedJointError, native, path_of
 from ._html import table
 from ._values import array_of, limit, listed, number, one_of
 
@@ -219,7 +221,7 @@ class Functions:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file that the command line reads: a NumPy archive (``.npz``), or a table (``.csv``).
 
-        Both state SI units. An archive has `magnitude_deviation` too, for `read` alone.
+        It is written whole or not at all. Both kinds state SI units. An archive has `magnitude_deviation` too, for `read` alone.
 
         Parameters
         ----------
@@ -269,8 +271,9 @@ class Functions:
             arrays["coherence"] = self.coherence
         if self.averages is not None:
             arrays["averages"] = self.averages
-        with open(path, "wb") as file:
-            np.savez(file, **arrays)
+        archive = io.BytesIO()
+        np.savez(archive, **arrays)
+        native(_native.write_file, path, archive.getvalue())
 
     def _pairs(self) -> list[list[tuple[str, str]]]:
         return [[(response, reference) for reference in self.references] for response in self.responses]
@@ -292,7 +295,9 @@ class Functions:
             comments.append(f"# averages = {self.averages!r}")
         head = "\n".join([*comments, ",".join(names)])
         table = np.column_stack(columns)
-        np.savetxt(path, table, fmt="%.17g", delimiter=",", header=head, comments="", encoding="utf-8")
+        text = io.StringIO()
+        np.savetxt(text, table, fmt="%.17g", delimiter=",", header=head, comments="")
+        native(_native.write_file, path, text.getvalue().encode())
 
     def plot(self, *, most: int = 6) -> "Figure":
         """Draws magnitude and phase over frequency.

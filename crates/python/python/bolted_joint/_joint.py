@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._command import BoltedJointError, path_of, run
+from . import _native
+from ._command import BoltedJointError, native, path_of, run
 from ._html import table, with_deviation
 from ._values import array_of, checked, number, plain, whole, within
 
@@ -81,7 +82,7 @@ class Joint:
             raise BoltedJointError(f"{os.fspath(path)}: {error}") from error
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the joint file.
+        """Writes the joint file, whole or not at all.
 
         Parameters
         ----------
@@ -95,7 +96,8 @@ class Joint:
         """
         path_of(path)
         data = checked(plain(self.data), "data")
-        Path(path).write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+        text = json.dumps(data, indent=2, allow_nan=False) + "\n"
+        native(_native.write_file, path, text.encode())
 
     @property
     def name(self) -> str:

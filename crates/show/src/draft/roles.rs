@@ -13,6 +13,16 @@ impl Candidate {
             .map(str::to_owned)
             .collect()
     }
+
+    /// Whether one of the words of its name is this letter.
+    pub(super) fn is_called(&self, letter: &str) -> bool {
+        self.words().iter().any(|word| word == letter)
+    }
+}
+
+/// Whether a file's name says that it is the assembly.
+pub(super) fn is_named_assembly(own: &Candidate) -> bool {
+    own.words().iter().any(|word| is_assembly(word))
 }
 
 /// By what a file was given its role.
@@ -39,14 +49,13 @@ pub(super) fn assembly(found: &[Candidate], is_in_space: bool) -> Option<(usize,
     let first = |is_one: &dyn Fn(&Candidate) -> bool| {
         found.iter().position(|own| !own.is_modal && is_one(own))
     };
-    let named = |own: &Candidate| own.words().iter().any(|word| is_assembly(word));
     let of_two = |own: &Candidate| is_of_two(own, found);
     let of_all = |own: &Candidate| is_in_space && found.iter().all(|other| own.contains(other));
     let third = |own: &Candidate| {
         let name = own.name.to_lowercase();
         ["c.", "c_", "c-"].iter().any(|word| name.starts_with(word))
     };
-    let told = first(&named)
+    let told = first(&is_named_assembly)
         .or_else(|| first(&of_two))
         .or_else(|| first(&of_all))
         .or_else(|| first(&third));
@@ -54,9 +63,9 @@ pub(super) fn assembly(found: &[Candidate], is_in_space: bool) -> Option<(usize,
         return Some((place, ToldBy::ItsOwn));
     }
     // what is called a or b is a part; of three files the third is what is left
-    let has = |own: &Candidate, letter: &str| own.words().iter().any(|word| word == letter);
-    let is_part = |own: &Candidate| has(own, "a") || has(own, "b");
-    let are_named = ["a", "b"].map(|letter| found.iter().filter(|own| has(own, letter)).count());
+    let is_part = |own: &Candidate| own.is_called("a") || own.is_called("b");
+    let are_named =
+        ["a", "b"].map(|letter| found.iter().filter(|own| own.is_called(letter)).count());
     let by = match (are_named, found.len()) {
         ([1, 1], 3) => ToldBy::ItsOwn,
         _ => ToldBy::Order,
@@ -103,16 +112,18 @@ pub(super) fn in_order(parts: &mut [Candidate]) {
 mod tests {
     use std::collections::BTreeSet;
 
-    use super::super::text;
+    use super::super::plane::{Part, Plane};
     use super::*;
 
     fn named(name: &str) -> Candidate {
         Candidate {
             name: name.to_owned(),
             further: Vec::new(),
+            modes: None,
             is_modal: name.ends_with(".toml"),
             responses: BTreeSet::new(),
             references: BTreeSet::new(),
+            pairs: BTreeSet::new(),
             band_hz: [0.0, 1.0],
             warning: None,
         }
@@ -147,7 +158,13 @@ mod tests {
             let found: Vec<&str> = found.iter().map(|own| own.name.as_str()).collect();
             assert_eq!(found[..2], *parts, "{names:?}");
         }
-        let drafted = text(&named("a.uff"), &named("b.uff"), &named("z.uff"), Order);
+        let plane = Plane {
+            a: Part::of(named("a.uff")),
+            b: Part::of(named("b.uff")),
+            assembly: named("z.uff"),
+            by: Order,
+        };
+        let drafted = plane.text();
         assert_eq!(
             drafted.matches("Guessed by the order").count(),
             3,

@@ -84,7 +84,14 @@ pub(super) fn text(parts: &[Candidate], assembly: &Candidate, by: ToldBy) -> Str
     let _ = write!(
         text,
         "\n{}",
-        frequency(&files, if is_chain { "of these" } else { "three" })
+        frequency(
+            &files,
+            if is_chain {
+                "what all of these files have"
+            } else {
+                "what all three files have"
+            }
+        )
     );
     text
 }

@@ -12,6 +12,7 @@ use serde::Deserialize;
 
 use super::StructureError;
 use crate::Dof;
+use bolted_joint_files::misspelt::with_meant;
 use bolted_joint_files::text_file;
 
 #[derive(Deserialize)]
@@ -112,7 +113,7 @@ impl ModalModel {
         let path = path.to_owned();
         let file: File = toml::from_str(text).map_err(|error| StructureError::Syntax {
             path: path.clone(),
-            message: error.to_string().trim_end().to_owned(),
+            message: with_meant(error.to_string().trim_end(), []),
         })?;
         let model = Self {
             path,

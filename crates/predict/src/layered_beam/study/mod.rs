@@ -112,6 +112,21 @@ impl LayeredBeamStudy {
     /// # Errors
     /// [`StudyError::Model`] where the model does not hold.
     pub fn run(&self) -> Result<Outcome, StudyError> {
-        Outcome::of(self).map_err(|source| StudyError::model(&self.path, None, source))
+        self.run_watched(&|| ())
+    }
+
+    /// As [`run`](Self::run); `progress` is called after each draw, from any thread.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn run_watched(&self, progress: &(dyn Fn() + Sync)) -> Result<Outcome, StudyError> {
+        let found = Outcome::of(self, progress);
+        found.map_err(|source| StudyError::model(&self.path, None, source))
+    }
+
+    /// How many draws [`run`](Self::run) makes; none where no value is uncertain.
+    #[must_use]
+    pub fn draws(&self) -> u64 {
+        self.scatter.as_ref().map_or(0, Scatter::draws)
     }
 }

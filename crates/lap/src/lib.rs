@@ -14,11 +14,11 @@ pub use bolted_joint_dynamics::law::Term;
 pub use error::LapError;
 pub use parameter::{LapParameter, LapParameters};
 pub use response::{
-    AtLimit, BackboneLine, BackbonePrediction, BackboneRun, BetweenRuns, Coloured, Estimate,
-    Expected, Fall, Fit, InTime, LapResponse, LapResponseStudy, Limit, Model, ModelComparison,
-    Motion, NoInterval, Noise, NoiseIs, NotInTime, Place, PointPrediction, Prediction, Resonance,
-    ResonanceInterval, ResponseUnknown, RunScatter, SineLine, SineRun, Slider, SliderParameter,
-    SliderValues, TermSet, Unpredicted, Use, Values, fit_responses,
+    AtLimit, BackboneLine, BackbonePrediction, BackboneRun, BetweenRuns, Coloured, CurvePoint,
+    Estimate, Expected, Fall, Fit, InTime, LapResponse, LapResponseStudy, Limit, Model,
+    ModelComparison, Motion, NoInterval, Noise, NoiseIs, NotInTime, Place, PointPrediction,
+    Prediction, Resonance, ResonanceInterval, ResponseUnknown, RunScatter, SineLine, SineRun,
+    Slider, SliderParameter, SliderValues, TermSet, Unpredicted, Use, Values, fit_responses,
 };
 pub use update::{
     Combination, Firefly, FireflyResult, Identifiability, Knowledge, LapUpdate, LapUpdateStudy,

@@ -38,8 +38,8 @@ pub use fit::{AtLimit, Fit};
 pub use model::{Model, Motion, ResponseUnknown, Values};
 pub use passive::Limit;
 pub use prediction::{
-    BackbonePrediction, BetweenRuns, Expected, Fall, NoInterval, PointPrediction, Prediction,
-    Resonance, ResonanceInterval, RunScatter, Unpredicted,
+    BackbonePrediction, BetweenRuns, CurvePoint, Expected, Fall, NoInterval, PointPrediction,
+    Prediction, Resonance, ResonanceInterval, RunScatter, Unpredicted,
 };
 pub use result::{Estimate, LapResponse};
 pub use slider::{Slider, SliderParameter, SliderValues};

@@ -2,6 +2,7 @@
 
 mod between;
 mod curve;
+mod own_curve;
 mod scatter;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -19,6 +20,8 @@ pub(super) use self::curve::Spread;
 use self::scatter::Scatter;
 
 pub use self::curve::{BackbonePrediction, Expected, Fall, PointPrediction};
+pub use self::own_curve::CurvePoint;
+pub(super) use self::own_curve::own_curve;
 pub use self::scatter::NoInterval;
 
 const ITERATIONS: usize = 100;

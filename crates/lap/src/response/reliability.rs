@@ -48,9 +48,12 @@ impl LapResponse {
         let steps = (self.fit.left.max(0.0) / noise).sqrt();
         let left = steps.max(self.unrest);
         if left > TOLERABLE_UNREST {
-            return Some(format!(
-                "the search for the estimate has not converged: it still moved by {left:.1} standard deviations"
-            ));
+            let by = match left.is_finite() {
+                true => format!(": it still moved by {left:.1} standard deviations"),
+                // nothing tells how far
+                false => String::new(),
+            };
+            return Some(format!("the search for the estimate has not converged{by}"));
         }
         let (followed, agreeing) = self.starts;
         // where noise is all that is left no other estimate can be much better

@@ -1,5 +1,7 @@
 //! The identified lap model: its unknowns with intervals, which of them the data determine, and how it does on every run.
 
+use std::f64::consts::TAU;
+
 use bolted_joint_statistics::{NORMAL_975, student_975};
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -13,7 +15,8 @@ use super::fit::Fit;
 use super::model::{Model, Motion, ResponseUnknown, Values};
 use super::odd::{self, Misfit};
 use super::prediction::{
-    BackbonePrediction, BetweenRuns, NoInterval, Prediction, Spread, Unpredicted,
+    BackbonePrediction, BetweenRuns, CurvePoint, NoInterval, Prediction, Spread, Unpredicted,
+    own_curve,
 };
 use super::slider::{Slider, SliderParameter};
 use super::study::LapResponseStudy;
@@ -85,6 +88,8 @@ pub struct LapResponse {
     pub unpredicted: Vec<Unpredicted>,
     /// Backbones and free decays beside the model's.
     pub backbones: Vec<BackbonePrediction>,
+    /// Frequency and damping of the model over the amplitudes at which stepped sines resonate.
+    pub curve: Vec<CurvePoint>,
     /// What those that were fitted differ by as a whole; `None` where fewer than two tell it.
     pub between_runs: Option<BetweenRuns>,
     /// Largest amplitude of the relative motion that was fitted, m.
@@ -155,6 +160,15 @@ impl LapResponse {
         };
         let (of_backbones, between_runs) =
             BackbonePrediction::of_all(&model, &fit, &study.backbones, &spread);
+        let resonating_m = predictions
+            .iter()
+            .filter(|row| row.motion == Motion::Relative)
+            .map(|row| row.relative_m(&model, &fit.values));
+        let smallest_m = resonating_m.fold(f64::INFINITY, f64::min);
+        let curve = match smallest_m < amplitude_m {
+            true => own_curve(&model, &fit, &spread, [smallest_m, amplitude_m]),
+            false => Vec::new(),
+        };
         let role = |used: Use, what: &str| match used {
             Use::Fit => what.to_owned(),
             Use::Predict => format!("{what}, predicted"),
@@ -195,6 +209,7 @@ impl LapResponse {
             predictions,
             unpredicted,
             backbones: of_backbones,
+            curve,
             between_runs,
             amplitude_m,
         };
@@ -284,6 +299,28 @@ impl LapResponse {
                 (amplitude_m, row.measured.frequency_hz)
             })
             .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points
+    }
+
+    /// Damping ratios at the measured phase resonances, over the amplitude (m); none where the motion of both bodies together is seen,
+    /// too.
+    #[must_use]
+    pub fn measured_damping(&self) -> Vec<(f64, f64)> {
+        if self.model.sees_sum() {
+            return Vec::new();
+        }
+        let rows = self.predictions.iter();
+        let relative = rows.filter(|row| row.motion == Motion::Relative);
+        let points = relative.map(|row| {
+            let amplitude_m = row.relative_m(&self.model, &self.fit.values);
+            // the force is all damping: Im z R = |d| F, ζ = Im z/(2 M ω²) with M = m/2
+            let load_n = self.model.relative_load().abs() * row.measured.force_n;
+            let omega = TAU * row.measured.frequency_hz;
+            let ratio = load_n / amplitude_m / (self.fit.values.mass * omega * omega);
+            (amplitude_m, ratio)
+        });
+        let mut points: Vec<(f64, f64)> = points.collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points
     }

@@ -2,7 +2,7 @@
 
 use bolted_joint_figures::html::{self, cell, columns, escaped, number_cell, shown, table};
 use bolted_joint_figures::{Drawn, Line, LineFigure, Scale};
-use bolted_joint_lap::{BackbonePrediction, Expected, LapResponse};
+use bolted_joint_lap::{BackbonePrediction, CurvePoint, Expected, LapResponse};
 
 /// Curves of a picture of several runs at most, each with the model's.
 const RUNS: usize = 2;
@@ -77,6 +77,61 @@ pub(super) fn section(found: &LapResponse) -> String {
         table(&header, &rows),
         pictures.collect::<String>()
     )
+}
+
+/// The model's curves over the amplitudes at which stepped sines resonate, beside what was measured there.
+pub(super) fn of_sines(found: &LapResponse) -> String {
+    if found.curve.is_empty() {
+        return String::new();
+    }
+    let kind = |measured: Vec<(f64, f64)>, of: &dyn Fn(&CurvePoint) -> [f64; 3], times: f64| {
+        let curve = |place: usize| {
+            let points = found.curve.iter();
+            points.map(move |own| (1e6 * own.amplitude_m, times * of(own)[place]))
+        };
+        let measured = measured.into_iter();
+        let measured = measured.map(|(amplitude_m, own)| (1e6 * amplitude_m, times * own));
+        let lines = [
+            Line::marks("measured (−90°)", measured),
+            Line::curve("95 %, from", curve(1)),
+            Line::curve("95 %, to", curve(2)),
+            Line::curve("model", curve(0)),
+        ];
+        lines
+            .into_iter()
+            .filter(|line| !line.points.is_empty())
+            .collect::<Vec<_>>()
+    };
+    let frequency = |own: &CurvePoint| [own.frequency_hz, own.frequency_95[0], own.frequency_95[1]];
+    let damping = |own: &CurvePoint| [own.damping_ratio, own.damping_95[0], own.damping_95[1]];
+    let pictures = [
+        (
+            "backbone",
+            "<b>Backbone</b>: the frequency of resonance",
+            drawn(
+                "Frequency of resonance over amplitude",
+                "frequency, Hz",
+                kind(found.measured_backbone(), &frequency, 1.0),
+            ),
+        ),
+        (
+            "damping",
+            "<b>Damping</b>: the damping ratio",
+            drawn(
+                "Damping over amplitude",
+                "damping ratio, %",
+                kind(found.measured_damping(), &damping, 100.0),
+            ),
+        ),
+    ];
+    let pictures = pictures.into_iter().filter_map(|(id, what, drawn)| {
+        let caption = format!(
+            "{what} over the amplitude of the relative displacement, without other modes; around it where the model’s own curve may be by \
+             the deviations of the unknowns, with 95 %."
+        );
+        Some(html::figure(id, &caption, &drawn?))
+    });
+    pictures.collect()
 }
 
 /// Frequencies of one run.

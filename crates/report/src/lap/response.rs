@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{
-    self, above_the_best, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
+    above_the_best, beside, cell, columns, escaped, number_cell, shown, table, with_deviation,
 };
 use bolted_joint_figures::{Line, LineFigure, Scale};
 use bolted_joint_files::Timestamp;
@@ -12,9 +12,6 @@ use bolted_joint_lap::{LapResponse, LapResponseStudy, NoiseIs, SineLine, SineRun
 use num_complex::Complex64;
 
 use crate::page::functions::{self as function, Function};
-
-/// Points of a computed curve.
-const POINTS: usize = 400;
 
 /// The report of a lap model identified from responses.
 #[derive(Debug, Clone, Copy)]
@@ -177,43 +174,8 @@ impl LapResponseReport<'_> {
                 ),
                 &rows
             ),
-            self.backbone().unwrap_or_default()
+            super::curves::of_sines(self.found)
         )
-    }
-
-    /// Resonance and damping over amplitude.
-    fn backbone(&self) -> Option<String> {
-        let found = self.found;
-        let measured: Vec<(f64, f64)> = found
-            .measured_backbone()
-            .into_iter()
-            .map(|(amplitude_m, hz)| (1e6 * amplitude_m, hz))
-            .collect();
-        let values = &found.fit.values;
-        let model = (1..=POINTS).map(|n| {
-            let amplitude = found.amplitude_m * n as f64 / POINTS as f64;
-            // Re z_r at no frequency is the equivalent stiffness K; ω² = K/(m/2)
-            let stiffness = found.model.equivalent_stiffness(values, amplitude);
-            (
-                1e6 * amplitude,
-                (stiffness / (0.5 * values.mass)).sqrt() / TAU,
-            )
-        });
-        let drawn = LineFigure {
-            title: "Frequency of resonance over amplitude",
-            across: ("relative displacement, µm", Scale::Linear),
-            up: ("frequency, Hz", Scale::Linear),
-            lines: vec![
-                Line::curve("model without other modes", model),
-                Line::marks("measured (−90°)", measured),
-            ],
-        }
-        .drawn()?;
-        Some(html::figure(
-            "backbone",
-            "<b>Backbone</b>: the frequency of resonance over the amplitude of the relative displacement.",
-            &drawn,
-        ))
     }
 
     fn models(&self) -> String {

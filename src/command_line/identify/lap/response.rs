@@ -80,6 +80,7 @@ pub(in super::super) fn run(
             "predictions": found.predictions,
             "unpredicted": found.unpredicted,
             "backbones": found.backbones,
+            "curve": found.curve,
             "between_runs": found.between_runs,
             "usable": against.is_empty(),
             "reasons_against": against,

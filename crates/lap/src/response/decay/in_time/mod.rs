@@ -126,6 +126,9 @@ impl fmt::Display for NotInTime {
             ),
             Self::Lost => f.write_str("no motion of the law was found that follows the records"),
             Self::Undetermined => f.write_str("the samples do not tell all unknowns apart"),
+            Self::Unsettled(left) if !left.is_finite() => {
+                f.write_str("the search over the samples found no step from where it began")
+            }
             Self::Unsettled(left) => write!(
                 f,
                 "the search over the samples ended while it still moved by {left:.1} standard deviations"

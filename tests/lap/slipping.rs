@@ -321,6 +321,44 @@ fn the_last_of_many_sliders_is_not_known_better_than_it_is() {
     );
 }
 
+/// Over the amplitude, frequency and damping are those of quadrature of the loop, within what is said of them; and what the force at
+/// phase resonance tells of the damping lies beside them.
+#[test]
+fn the_curve_of_stepped_sines_is_that_of_the_loop() {
+    let law = |u: f64| (5e4 * u).min(4.0);
+    let measured = sines(&law, 5e4);
+    let (mut within, mut count) = (0, 0);
+    for seed in 0..6 {
+        let (found, _) = identified(&measured, "terms = [\"jenkins\"]\ncompare = false", seed);
+        assert!(found.curve.len() > 50);
+        for own in &found.curve {
+            let [_, hz, ratio] = point(&law, 5e4, own.amplitude_m);
+            for (value, [low, high], truth) in [
+                (own.frequency_hz, own.frequency_95, hz),
+                (own.damping_ratio, own.damping_95, ratio),
+            ] {
+                let half = 0.5 * (high - low);
+                assert!(
+                    half < 0.05 * value && (value - truth).abs() < 2.5 * half,
+                    "{own:?} {truth}"
+                );
+                within += usize::from((low..=high).contains(&truth));
+                count += 1;
+            }
+        }
+        let damping = found.measured_damping();
+        assert_eq!(damping.len(), 8);
+        for (amplitude_m, found) in damping {
+            let [_, _, ratio] = point(&law, 5e4, amplitude_m);
+            assert!(
+                (found / ratio - 1.0).abs() < 0.05,
+                "{amplitude_m} {found} {ratio}"
+            );
+        }
+    }
+    assert!(10 * within >= 8 * count, "{within} of {count}");
+}
+
 /// 40 µs turn phases by 1.5°, and look like a fifth less of damping. A law that is wrong has no delay.
 #[test]
 fn a_delay_of_all_responses_is_named_and_no_other() {

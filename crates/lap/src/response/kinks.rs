@@ -1,9 +1,9 @@
 //! How far an estimate may be off where the likelihood has a kink: deviations that the slope on one side of it makes too small.
 //!
 //! A law slips through from some displacement on. Where that is next to the amplitude of a measured point, derivatives say on one side
-//! that this point tells all, and nothing on the other. So the unknowns that move the kink are led away from the estimate, while all
-//! others follow, until χ² has risen by what an interval of 95 % allows. And where few points lie beyond the kink, χ² has a minimum
-//! wherever it may be among them: those that are as good belong to the interval.
+//! that this point tells all, and nothing on the other. And where few points lie beyond the kink, χ² has a minimum wherever it may be
+//! among them. So it is held at places in the gaps between them, while all else follows, and then led away from the estimate, until χ²
+//! has risen by what an interval of 95 % allows. No place is more deviations off than the root of its χ² says.
 
 use bolted_joint_statistics::NORMAL_975;
 use nalgebra::{DMatrix, DVector};
@@ -133,10 +133,11 @@ fn along(
     };
     for (values, is_start) in others {
         // where no minimum is, and χ² yet hardly larger
-        if let Some(found) = at_kink(&values)
-            && let Some(reaches) = reaches(&found)
-        {
-            raise(&mut raised, covariance, &reaches);
+        if let Some(found) = at_kink(&values) {
+            if let Some(reaches) = reaches(&found) {
+                raise(&mut raised, covariance, &reaches);
+            }
+            keep_if_lower(found);
         }
         if !is_start {
             continue;

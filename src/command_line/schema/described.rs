@@ -313,7 +313,7 @@ mod tests {
             (
                 "surface.a.roughness",
                 "Study of a prediction",
-                "D (1 < D < 2) and G",
+                "G of both surfaces together",
             ),
             ("motion.mode", "Study of a layered beam", "default: 1)"),
             ("load.on", "Study of a response", "default: \"b\""),

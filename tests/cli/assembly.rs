@@ -182,7 +182,7 @@ fn it_is_said_where_a_joint_moves_further_than_it_was_observed_at() {
             let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
             let of = |name: &str| {
                 let is_it = |own: &&str| own.starts_with(&format!("{name} ["));
-                names.iter().position(|own| is_it(own)).map(|n| row[n])
+                names.iter().position(is_it).map(|n| row[n])
             };
             let part = |[one, other]: [&str; 2]| of(one).unwrap_or(0.0) - of(other).unwrap_or(0.0);
             part(columns[0]).hypot(part(columns[1]))

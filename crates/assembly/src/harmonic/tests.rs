@@ -134,7 +134,7 @@ fn laws_side_by_side_move_as_in_time() {
             until_s: f64::INFINITY,
         };
         let duration = PERIODS as f64 / hertz;
-        let (rows, reached) = model
+        let (rows, _) = model
             .history(duration, step, &[Some(load)], &|_| ())
             .unwrap();
         // of the straight pieces of the sine: (sin x/x)² with x = π/N

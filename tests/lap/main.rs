@@ -10,6 +10,7 @@ mod brake_reuss;
 mod decays;
 mod decays_in_time;
 mod free_vibration;
+mod loops;
 mod masing;
 mod oscillator;
 mod passive;

@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 
-use crate::slipping::FirstLoading;
+use crate::loops::FirstLoading;
 
 /// M of the relative motion, kg.
 pub(crate) const MASS: f64 = 1.0;

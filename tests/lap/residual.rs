@@ -4,7 +4,7 @@ use bolted_joint_testing::{close, has};
 
 use bolted_joint::identify::lap::{LapResponse, ResponseUnknown, SliderParameter};
 
-use crate::slipping::{
+use crate::loops::{
     C12, DAMPING, FREQUENCY, FirstLoading, K0, Measured, backbone, identified_of, iwan, study_of,
 };
 

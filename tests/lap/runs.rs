@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::slipping::{C12, K0, MASS};
+use crate::loops::{C12, K0, MASS};
 
 /// Relative deviations of runs and of their points.
 const OF_RUN: [f64; 2] = [1e-3, 0.05];

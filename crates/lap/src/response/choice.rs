@@ -1,5 +1,6 @@
 //! Which terms the data call for, by likelihood.
 
+use bolted_joint_identify::parallel;
 use serde::Serialize;
 
 use super::backbone::BackboneRun;
@@ -124,9 +125,13 @@ pub(super) fn choose(
     }
     let mut candidates = Vec::new();
     let mut failure = None;
-    for terms in all {
-        match candidate(study, &runs, &backbones, terms) {
-            Ok(candidate) => candidates.push(at_kinks(study, candidate)),
+    let fitted = parallel::map_each(all, |terms| {
+        let own = candidate(study, &runs, &backbones, terms);
+        own.map(|own| at_kinks(study, own))
+    });
+    for fitted in fitted {
+        match fitted {
+            Ok(candidate) => candidates.push(candidate),
             Err(error) => failure = Some(failure.unwrap_or(error)),
         }
     }
@@ -270,8 +275,10 @@ fn of_another_law(
     let likely = polynomials.into_iter().take(MOST_POLYNOMIALS).chain(alone);
     let of_samples = |candidate: &Candidate| candidate.bic(study.noise.is_stated);
     let best = |candidates: Vec<Candidate>| {
-        let fitted = candidates.into_iter().map(|one| in_time(study, one, false));
-        let fitted = fitted.filter(|one| one.in_time == InTime::Fitted);
+        let fitted = parallel::map_each(candidates, |one| in_time(study, one, false));
+        let fitted = fitted
+            .into_iter()
+            .filter(|one| one.in_time == InTime::Fitted);
         fitted.min_by(|one, other| of_samples(one).total_cmp(&of_samples(other)))
     };
     let found = best(likely.collect()).or_else(|| best(beside))?;

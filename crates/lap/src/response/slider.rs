@@ -1,6 +1,7 @@
 //! Laws that slip, as unknowns of a lap: by logarithms, so that no step of a search leaves their range, and about the stiffness of
 //! small motion, which responses tell best.
 
+mod first_loading;
 mod many;
 mod range;
 
@@ -14,6 +15,8 @@ use num_complex::Complex64;
 use serde::{Serialize, Serializer};
 
 use self::many::ManySliders;
+
+pub(super) use self::first_loading::FirstLoading;
 
 /// Unknowns of a law at most.
 pub(super) const MOST: usize = 4;
@@ -197,7 +200,8 @@ impl SliderValues {
         self.stiffness_of(self.logs)
     }
 
-    fn stiffness_of<N: Number>(&self, logs: [N; MOST]) -> N {
+    /// K_T with these unknowns in place of its own, N/m.
+    pub(super) fn stiffness_of<N: Number>(&self, logs: [N; MOST]) -> N {
         match self.law(logs) {
             Valued::Jenkins(law) => law.stiffness,
             Valued::Iwan(law) => law.stiffness,
@@ -229,23 +233,6 @@ impl SliderValues {
         match self.law(self.logs) {
             Valued::Jenkins(law) => law.nonlinear_amplitude(0.0, 0.0),
             Valued::Iwan(law) => law.nonlinear_amplitude(0.0, 0.0),
-        }
-    }
-
-    /// Its load at a displacement (m) that it came to straight from rest, N.
-    pub(super) fn first_loading(&self) -> Box<dyn Fn(f64) -> f64> {
-        match self.law(self.logs) {
-            Valued::Jenkins(law) => Box::new(move |u| law.load(&[0.0], u, 0.0)),
-            Valued::Iwan(law) => {
-                let span = law.nonlinear_amplitude(0.0, 0.0);
-                let above = law.exponent + 1.0;
-                // F = K_T u − K_l (u/φ_max)^(χ+1) u/(χ+2) with K_l = K_T/(1 + β), F_S from φ_max on
-                let part = law.stiffness / (1.0 + law.ratio) / (above + 1.0);
-                Box::new(move |u| match u < span {
-                    true => (law.stiffness - part * (u / span).powf(above)) * u,
-                    false => law.slip_force,
-                })
-            }
         }
     }
 
@@ -289,6 +276,18 @@ impl SliderValues {
                 vec![law.slip_force, law.stiffness, law.exponent, law.ratio],
             ),
         }
+    }
+
+    /// Its unknowns as other numbers, each made of its parameter and itself.
+    pub(super) fn logs_as<N: Number>(
+        &self,
+        number: impl Fn(SliderParameter, f64) -> N,
+    ) -> [N; MOST] {
+        let mut logs = self.logs.map(N::from);
+        for (log, parameter) in logs.iter_mut().zip(self.slider.parameters()) {
+            *log = number(*parameter, log.value());
+        }
+        logs
     }
 
     /// Place of a parameter's unknown.

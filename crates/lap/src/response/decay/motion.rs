@@ -3,13 +3,20 @@
 //! Masing's rule goes from turn to turn: as the motion decays no loop closes, so that the last turn and its load are all that the
 //! law remembers. That is the lap's own motion, to rounding, and takes a quarter of the time of its steps, which count energies
 //! and remember up to 64 turns.
+//!
+//! It is computed in real numbers, or in those that carry how they change with the unknowns and with the release: one motion then
+//! has all derivatives, where differences take two for each.
+
+mod law;
 
 use std::f64::consts::TAU;
 
-use bolted_joint_dynamics::law::Law as _;
+use bolted_joint_dynamics::{Dual, Number};
+use nalgebra::DMatrix;
 
+use self::law::Law;
 use super::recorded::{Quantity, Recorded};
-use crate::response::model::Values;
+use crate::response::model::{ResponseUnknown, Values};
 
 /// Steps in a period, at least.
 const STEPS: f64 = 64.0;
@@ -17,10 +24,10 @@ const STEPS: f64 = 64.0;
 const STEPS_BEFORE: f64 = 32.0 * STEPS;
 /// A motion beyond so many times the release is none of a decay.
 const ESCAPES: f64 = 2.0;
-/// Cuts of a step at most, part of the displacement of a corner that is none, and steps that find the place of a cut.
-const CUTS: usize = 4;
-const AT_CORNER: f64 = 1e-9;
-const PLACED: usize = 12;
+/// Directions that one motion changes along.
+const FEW: usize = 6;
+const MORE: usize = 8;
+const MOST: usize = 10;
 
 /// Where a motion begins: at rest, away from the middle, where the joint came to straight from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +78,17 @@ impl Grid {
     }
 }
 
+/// What a motion changes with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Direction {
+    /// A number of the model, as it is searched.
+    Unknown(ResponseUnknown),
+    /// Displacement of the release, m.
+    Displacement,
+    /// Time of the release, s.
+    Time,
+}
+
 /// What a record would have of the lap with these values, without an offset; `None` where that moves as no decay does.
 pub(super) fn sampled(
     values: &Values,
@@ -78,21 +96,92 @@ pub(super) fn sampled(
     record: &Recorded,
     grid: &Grid,
 ) -> Option<Vec<f64>> {
-    let law = Law::of(values, grid);
-    let mut place = law.released(release.displacement_m);
     let mut samples = Vec::with_capacity(grid.samples);
-    let before = (release.time_s / record.interval_s).ceil().max(0.0) as usize;
+    let law = Law::of(values, grid, |_, value| value);
+    let begin = [release.displacement_m, release.time_s];
+    followed(&law, begin, record, grid, |sample| samples.push(sample))?;
+    Some(samples)
+}
+
+/// How these samples change along each direction, a column for each. An instant at which the joint turns moves as well, which does
+/// not matter: the load goes on without a jump.
+pub(super) fn changes(
+    values: &Values,
+    release: &Release,
+    record: &Recorded,
+    grid: &Grid,
+    directions: &[Direction],
+) -> Option<DMatrix<f64>> {
+    let mut columns = DMatrix::zeros(grid.samples, directions.len());
+    let mut first = 0;
+    for part in directions.chunks(MOST) {
+        let mut own = columns.columns_mut(first, part.len());
+        let mut row = 0;
+        let mut take = |change: &[f64]| {
+            for (entry, change) in own.row_mut(row).iter_mut().zip(change) {
+                *entry = *change;
+            }
+            row += 1;
+        };
+        match part.len() {
+            ..=FEW => along::<FEW>(values, release, record, grid, part, |n| take(&n.change))?,
+            ..=MORE => along::<MORE>(values, release, record, grid, part, |n| take(&n.change))?,
+            _ => along::<MOST>(values, release, record, grid, part, |n| take(&n.change))?,
+        }
+        first += part.len();
+    }
+    Some(columns)
+}
+
+/// The samples with their changes along at most so many directions.
+fn along<const K: usize>(
+    values: &Values,
+    release: &Release,
+    record: &Recorded,
+    grid: &Grid,
+    directions: &[Direction],
+    take: impl FnMut(Dual<K>),
+) -> Option<()> {
+    let number = |direction: Direction, value: f64| {
+        let place = directions.iter().position(|own| *own == direction);
+        place.map_or(Dual::from(value), |place| Dual::along(value, place))
+    };
+    let law = Law::of(values, grid, |unknown, value| {
+        number(Direction::Unknown(unknown), value)
+    });
+    let begin = [
+        number(Direction::Displacement, release.displacement_m),
+        number(Direction::Time, release.time_s),
+    ];
+    followed(&law, begin, record, grid, take)
+}
+
+/// The samples of a motion that begins at this displacement (m) and time (s), one after the other.
+fn followed<N: Number>(
+    law: &Law<N>,
+    [displacement, time]: [N; 2],
+    record: &Recorded,
+    grid: &Grid,
+    mut take: impl FnMut(N),
+) -> Option<()> {
+    let mut give = |sample: N| {
+        let sample = sample.chain(record.share * sample.value(), record.share);
+        take(sample);
+        sample.is_finite().then_some(())
+    };
+    let mut place = law.released(displacement);
+    let before = (time.value() / record.interval_s).ceil().max(0.0) as usize;
     let before = before.min(grid.samples);
-    let square = -law.acceleration(&place, [place.u, place.v]) / release.displacement_m;
-    let swing = (square > 0.0).then(|| Swing {
-        displacement_m: release.displacement_m,
-        omega: square.sqrt(),
+    let square = -law.acceleration(&place, [place.u, place.v]) / displacement;
+    let swing = (square.value() > 0.0).then(|| Swing {
+        displacement,
+        omega: root(square),
     })?;
     for n in 0..before {
-        let way_s = record.interval_s * n as f64 - release.time_s;
-        samples.push(record.share * swing.at(way_s, record.quantity));
+        let way = N::from(record.interval_s * n as f64) - time;
+        give(swing.at(way, record.quantity))?;
     }
-    let first_s = record.interval_s * before as f64 - release.time_s;
+    let first_s = record.interval_s * before as f64 - time.value();
     let steps = (first_s / grid.step_s).ceil().max(1.0);
     if steps.is_nan() || steps > STEPS_BEFORE {
         return None;
@@ -100,7 +189,8 @@ pub(super) fn sampled(
     for _ in 0..steps as u64 {
         law.advance(&mut place, first_s / steps);
     }
-    let farthest = ESCAPES * release.displacement_m.abs();
+    place = law.later(&place, time - N::from(time.value()));
+    let farthest = ESCAPES * displacement.value().abs();
     for n in before..grid.samples {
         if n > before {
             bolted_joint_wanted::look();
@@ -108,171 +198,40 @@ pub(super) fn sampled(
                 law.advance(&mut place, grid.step_s);
             }
         }
-        if place.u.is_nan() || place.u.abs() > farthest {
+        if place.u.value().is_nan() || place.u.value().abs() > farthest {
             return None;
         }
-        let value = match record.quantity {
+        give(match record.quantity {
             Quantity::Displacement => place.u,
             Quantity::Velocity => place.v,
             Quantity::Acceleration => law.acceleration(&place, [place.u, place.v]),
-        };
-        samples.push(record.share * value);
+        })?;
     }
-    let is_finite = samples.iter().all(|value| value.is_finite());
-    is_finite.then_some(samples)
+    Some(())
 }
 
-/// Relative displacement and velocity, and place and load of the law's last turn.
-#[derive(Clone, Copy)]
-struct Place {
-    u: f64,
-    v: f64,
-    turn: f64,
-    at_turn: f64,
-}
-
-/// The relative motion: M ü + C u̇ + K u + … + f = 0.
-struct Law<'a> {
-    values: &'a Values,
-    mass: f64,
-    spring: f64,
-    damper: f64,
-    first_loading: Option<Box<dyn Fn(f64) -> f64>>,
-    /// Way from a turn at which the load of the law has a corner, m.
-    corner: f64,
-}
-
-impl<'a> Law<'a> {
-    fn of(values: &'a Values, grid: &Grid) -> Self {
-        // A step turns the phase by ωh (1 − (ωh)⁴/120) in place of ωh: a mass that is smaller by (ωh)⁴/60 gives ω back
-        let slower = 1.0 - (grid.omega * grid.step_s).powi(4) / 60.0;
-        let slider = values.slider.as_ref();
-        Self {
-            values,
-            mass: 0.5 * values.mass * slower,
-            spring: 0.5 * values.support_stiffness + values.spring(),
-            damper: values.relative_damping(),
-            first_loading: slider.map(|slider| slider.first_loading()),
-            corner: slider.map_or(f64::INFINITY, |slider| 2.0 * slider.corner_m()),
-        }
-    }
-
-    fn released(&self, displacement_m: f64) -> Place {
-        let load = self.first_loading.as_ref();
-        let load = load.map_or(0.0, |load| load(displacement_m.abs()));
-        Place {
-            u: displacement_m,
-            v: 0.0,
-            turn: displacement_m,
-            at_turn: displacement_m.signum() * load,
-        }
-    }
-
-    /// Load of the law that slips at a displacement behind the last turn: f_r + 2 F((u − u_r)/2), F odd.
-    fn load(&self, place: &Place, u: f64) -> f64 {
-        let Some(first_loading) = &self.first_loading else {
-            return 0.0;
-        };
-        let way = u - place.turn;
-        place.at_turn + 2.0 * way.signum() * first_loading(0.5 * way.abs())
-    }
-
-    fn acceleration(&self, place: &Place, [u, v]: [f64; 2]) -> f64 {
-        let terms = self.values.terms.load::<f64>(&[], u, v);
-        -(self.spring * u + self.damper * v + terms + self.load(place, u)) / self.mass
-    }
-
-    /// One step of the classical Runge–Kutta method behind the last turn.
-    fn stepped(&self, place: &Place, h: f64) -> Place {
-        let Place { u, v, .. } = *place;
-        let a1 = self.acceleration(place, [u, v]);
-        let v2 = v + 0.5 * h * a1;
-        let a2 = self.acceleration(place, [u + 0.5 * h * v, v2]);
-        let v3 = v + 0.5 * h * a2;
-        let a3 = self.acceleration(place, [u + 0.5 * h * v2, v3]);
-        let v4 = v + h * a3;
-        let a4 = self.acceleration(place, [u + h * v3, v4]);
-        Place {
-            u: u + h / 6.0 * (v + 2.0 * (v2 + v3) + v4),
-            v: v + h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4),
-            ..*place
-        }
-    }
-
-    /// A step that is cut where the motion turns or the load has a corner: between them all is smooth.
-    fn advance(&self, place: &mut Place, step_s: f64) {
-        let mut left_s = step_s;
-        for _ in 0..CUTS {
-            let next = self.stepped(place, left_s);
-            if self.first_loading.is_none() {
-                *place = next;
-                return;
-            }
-            let turns = place.v * next.v < 0.0;
-            let turned = turns.then(|| self.placed(place, left_s, &|at| at.v * next.v.signum()));
-            let end = turned.unwrap_or((left_s, next));
-            let beyond = |at: &Place| (at.u - at.turn).abs() - self.corner;
-            let is_cornered = beyond(place) < -AT_CORNER * self.corner
-                && beyond(&end.1) > AT_CORNER * self.corner;
-            if is_cornered {
-                let (at_s, at) = self.placed(place, end.0, &beyond);
-                *place = at;
-                left_s -= at_s;
-                continue;
-            }
-            *place = end.1;
-            let Some((at_s, at)) = turned else {
-                return;
-            };
-            *place = Place {
-                u: at.u,
-                v: 0.0,
-                turn: at.u,
-                at_turn: self.load(place, at.u),
-            };
-            left_s -= at_s;
-        }
-        *place = self.stepped(place, left_s);
-    }
-
-    /// When within a step a number of the motion passes zero upwards, and the motion then: regula falsi, after Illinois.
-    fn placed(&self, from: &Place, step_s: f64, of: &dyn Fn(&Place) -> f64) -> (f64, Place) {
-        let last = self.stepped(from, step_s);
-        let (mut low, mut high) = ((0.0, of(from)), (step_s, of(&last)));
-        let mut found = (step_s, last);
-        for _ in 0..PLACED {
-            let at_s = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-            if !(at_s > low.0 && at_s < high.0) {
-                break;
-            }
-            let at = self.stepped(from, at_s);
-            let value = of(&at);
-            found = (at_s, at);
-            if value < 0.0 {
-                low = (at_s, value);
-                high.1 *= 0.5;
-            } else {
-                high = (at_s, value);
-                low.1 *= 0.5;
-            }
-        }
-        found
-    }
+/// √x
+fn root<N: Number>(x: N) -> N {
+    let root = x.value().sqrt();
+    x.chain(root, 0.5 / root)
 }
 
 /// The motion near a turn, the same before it and after it. A release that is estimated lies less than a sample behind its place.
-struct Swing {
-    displacement_m: f64,
-    omega: f64,
+struct Swing<N> {
+    displacement: N,
+    omega: N,
 }
 
-impl Swing {
-    fn at(&self, way_s: f64, quantity: Quantity) -> f64 {
-        let (sine, cosine) = (self.omega * way_s).sin_cos();
+impl<N: Number> Swing<N> {
+    /// So long behind its middle, s.
+    fn at(&self, way: N, quantity: Quantity) -> N {
+        let angle = self.omega * way;
+        let (sine, cosine) = angle.value().sin_cos();
+        let (sine, cosine) = (angle.chain(sine, cosine), angle.chain(cosine, -sine));
         match quantity {
-            Quantity::Displacement => self.displacement_m * cosine,
-            Quantity::Velocity => -self.displacement_m * self.omega * sine,
-            Quantity::Acceleration => -self.displacement_m * self.omega * self.omega * cosine,
+            Quantity::Displacement => self.displacement * cosine,
+            Quantity::Velocity => -self.displacement * self.omega * sine,
+            Quantity::Acceleration => -self.displacement * self.omega * self.omega * cosine,
         }
     }
 }

@@ -338,7 +338,7 @@ fn decay(
         0.5 * values.support_stiffness + values.spring(),
         values.relative_damping(),
     );
-    let loading = |way: f64| slider.as_ref().map_or(0.0, |law| law(way));
+    let loading = |way: f64| slider.as_ref().map_or(0.0, |law| law.at(way));
     let of_spring = |u: f64| spring * u + values.terms.load::<f64>(&[], u, 0.0);
     // Masing: f = f_r ∓ 2 F(|u − u_r|/2) from the last turn; as the motion decays no loop closes
     let (mut u, mut v) = (released_m, 0.0_f64);

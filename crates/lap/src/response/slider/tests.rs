@@ -61,7 +61,7 @@ fn first_loading_is_that_of_the_law() {
                 Valued::Jenkins(law) => law.load(&[0.0], u, 0.0),
                 Valued::Iwan(law) => law.load::<f64>(&[], u, 0.0),
             };
-            let found = values.first_loading()(u);
+            let found = values.first_loading().at(u);
             assert!(
                 (found - expected).abs() < 1e-12 * (1.0 + expected),
                 "{values:?} {u}"

@@ -188,16 +188,13 @@ pub(in crate::response) fn fitted(
     });
     let left = AtomicUsize::new(of_each);
     // what slips only before the first point that is read has left no trace there
-    let scan = || scan::starts((study, model), runs, &alone, &left);
+    let scan = || scan::starts((study, model), runs, &alone, of_each);
     let (first, confirm) = match effort {
         Effort::Whole { confirm } => (Vec::new(), confirm),
         Effort::Shared => (scan(), false),
     };
     let last = std::iter::once_with(|| match effort {
-        Effort::Whole { .. } => {
-            left.store(of_each, Ordering::Relaxed);
-            scan()
-        }
+        Effort::Whole { .. } => scan(),
         Effort::Shared => Vec::new(),
     });
     let starts = first.into_iter().chain(starts).chain(last.flatten());

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
 use num_complex::Complex64;
 
-use crate::response::decay::motion::{Grid, Release, sampled};
+use crate::response::decay::motion::{self, Direction, Grid, Release, sampled};
 use crate::response::decay::recorded::Recorded;
 use crate::response::model::Values;
 
@@ -15,8 +15,6 @@ const GUESSED_FROM: f64 = 2.0;
 /// Periods that it is improved by, one after the other, and how often.
 const IMPROVED_BY: [f64; 2] = [3.0, 12.0];
 const IMPROVEMENTS: usize = 4;
-/// Step of differences: part of the displacement, and angle, rad.
-const STEP: f64 = 1e-4;
 /// Part of a sample's distance by which a release may lie behind the first sample at first.
 const BEHIND: f64 = 0.25;
 
@@ -40,15 +38,9 @@ impl Course {
         let own = sampled(values, &release, record, grid)?;
         let pairs = record.values.iter().zip(&own);
         let beyond = pairs.map(|(measured, own)| (measured - own) / record.noise);
-        let mut residual = DVector::from_iterator(own.len(), beyond);
-        match beside {
-            // the offset that fits best
-            None => {
-                let mean = residual.mean();
-                residual.add_scalar_mut(-mean);
-            }
-            Some(beside) => residual -= beside * beside.tr_mul(&residual),
-        }
+        let mut residual = DMatrix::from_iterator(own.len(), 1, beyond);
+        project(&mut residual, beside);
+        let residual = residual.column(0).into_owned();
         let is_finite = residual.iter().all(|entry| entry.is_finite());
         is_finite.then_some(Self { release, residual })
     }
@@ -58,9 +50,37 @@ impl Course {
     }
 }
 
-/// Steps of the displacement (m) and of the time (s) of a release, for differences.
-pub(super) fn steps(release: &Release, grid: &Grid) -> [f64; 2] {
-    [STEP * release.displacement_m.abs(), STEP / grid.omega]
+/// How that residual changes along each direction, a column for each.
+pub(super) fn changes(
+    values: &Values,
+    release: Release,
+    (record, beside): (&Recorded, Option<&DMatrix<f64>>),
+    grid: &Grid,
+    directions: &[Direction],
+) -> Option<DMatrix<f64>> {
+    let mut columns = motion::changes(values, &release, record, grid, directions)?;
+    columns /= -record.noise;
+    project(&mut columns, beside);
+    columns
+        .iter()
+        .all(|entry| entry.is_finite())
+        .then_some(columns)
+}
+
+/// Takes from each column what is in the span of `beside`, or the offset that fits best.
+fn project(columns: &mut DMatrix<f64>, beside: Option<&DMatrix<f64>>) {
+    match beside {
+        None => {
+            for mut column in columns.column_iter_mut() {
+                let mean = column.mean();
+                column.add_scalar_mut(-mean);
+            }
+        }
+        Some(beside) => {
+            let within = beside.tr_mul(columns);
+            columns.gemm(-1.0, beside, &within, 1.0);
+        }
+    }
 }
 
 /// The release moved by so much.
@@ -121,15 +141,9 @@ fn guessed(record: &Recorded, omega: f64, rate: f64) -> Option<Release> {
 /// One step of Gauss and Newton.
 fn improved(values: &Values, record: &Recorded, grid: &Grid, from: &Release) -> Option<Release> {
     let own = Course::of(values, *from, (record, None), grid)?;
-    let steps = steps(from, grid);
-    let columns = [[steps[0], 0.0], [0.0, steps[1]]].map(|change| {
-        let other = Course::of(values, moved(from, change), (record, None), grid)?;
-        Some((other.residual - &own.residual) / (change[0] + change[1]))
-    });
-    let [Some(by_displacement), Some(by_time)] = columns else {
-        return None;
-    };
-    let both = [by_displacement, by_time];
+    let directions = [Direction::Displacement, Direction::Time];
+    let both = changes(values, *from, (record, None), grid, &directions)?;
+    let both = [both.column(0), both.column(1)];
     let normal = Matrix2::from_fn(|i, j| both[i].dot(&both[j]));
     let right = Vector2::from_fn(|i, _| -both[i].dot(&own.residual));
     let change = normal.lu().solve(&right)?;

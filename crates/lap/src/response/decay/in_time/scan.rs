@@ -6,6 +6,8 @@
 use std::borrow::Cow;
 use std::sync::atomic::AtomicUsize;
 
+use bolted_joint_identify::parallel;
+
 use super::search::State;
 use super::{Start, farthest_m};
 use crate::response::backbone::{self, BackboneRun};
@@ -22,12 +24,12 @@ const TRIED_ON: [f64; 2] = [0.06, 0.15];
 const FOLLOWED: usize = 3;
 const WORSE: f64 = 10.0;
 
-/// Starts, the best first; none of a law that does not slip.
+/// Starts, the best first; none of a law that does not slip. All of them together may take so many steps of motions.
 pub(super) fn starts(
     (study, model): (&LapResponseStudy, &Model),
     runs: &[&BackboneRun],
     alone: &[(&BackboneRun, Cow<'_, Recorded>)],
-    left: &AtomicUsize,
+    of_all: usize,
 ) -> Vec<Values> {
     let Some(slider) = model.terms.slider() else {
         return Vec::new();
@@ -42,16 +44,19 @@ pub(super) fn starts(
     let farthest = alone.iter().map(|(run, record)| farthest_m(run, record));
     let released_m = farthest.fold(0.0, f64::max);
     let laws = laws(slider, base.relative_stiffness(), released_m).into_iter();
-    let laws = laws.filter(|law| law.stiffness() < base.joint_stiffness);
-    let tried = laws.filter_map(|law| {
+    let laws: Vec<SliderValues> = laws
+        .filter(|law| law.stiffness() < base.joint_stiffness)
+        .collect();
+    let steps = of_all / laws.len().max(1);
+    let tried = parallel::map_each(laws, |law| {
         let values = Values {
             slider: Some(law),
             ..base
         };
-        let start = Start::of((study, model), values, alone, left).ok()?;
-        tried(start)
+        let left = AtomicUsize::new(steps);
+        tried(Start::of((study, model), values, alone, &left).ok()?)
     });
-    let mut tried: Vec<(f64, Values)> = tried.collect();
+    let mut tried: Vec<(f64, Values)> = tried.into_iter().flatten().collect();
     tried.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let most = tried.first().map_or(0.0, |(least, _)| WORSE * least);
     let best = tried.into_iter().take(FOLLOWED);

@@ -1,11 +1,11 @@
 //! The likelihood of all samples at its maximum: Gauss–Newton steps over the model's numbers, with each record's release eliminated.
 //!
-//! Each step is a fit to the square forms of the records, within the limits of a passive joint. Derivatives are central
-//! differences, and hold for a few steps.
+//! Each step is a fit to the square forms of the records, within the limits of a passive joint. Derivatives hold for a few steps.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use bolted_joint_identify::parallel;
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::NotInTime;
@@ -13,15 +13,15 @@ use super::release::{self, Course};
 use super::rows::Rows;
 use super::slopes::Slopes;
 use crate::response::backbone::BackboneRun;
-use crate::response::decay::motion::{Grid, Release};
+use crate::response::decay::motion::{Direction, Grid, Release};
 use crate::response::decay::recorded::Recorded;
 use crate::response::fit::{Data, Fit, Kind, fit};
 use crate::response::model::{Model, ResponseUnknown, Values};
 use crate::response::study::Noise;
 
 /// How often derivatives are taken, and steps with the same ones.
-const DERIVED: usize = 20;
-const STEPS: usize = 6;
+const DERIVED: usize = 40;
+const STEPS: usize = 2;
 /// Standard deviations of a step that is none with derivatives of the same place, and with older ones.
 const SETTLED: f64 = 0.05;
 const SMALL: f64 = 0.02;
@@ -43,7 +43,7 @@ const ROUGH: f64 = 0.5;
 const LONGEST: f64 = 0.7;
 /// Part of χ² that is rounding.
 const ROUNDING: f64 = 1e-10;
-/// Least eigenvalue of the scaled information that is more than rounding of differences.
+/// Least eigenvalue of the scaled information that is more than rounding.
 const TOLD: f64 = 1e-9;
 /// Numbers of each record that are its own: displacement and time of the release, and the offset.
 pub(super) const OWN: usize = 3;
@@ -153,11 +153,29 @@ impl Search<'_> {
         release: Release,
         run: &Run<'_>,
     ) -> Option<Course> {
-        let fewer = |left: usize| left.checked_sub(run.grid.steps());
-        let order = Ordering::Relaxed;
-        self.left.fetch_update(order, order, fewer).ok()?;
+        self.takes(run.grid.steps())?;
         let beside = run.beside.as_deref();
         Course::of(values, release, (run.record, beside), &run.grid)
+    }
+
+    /// How what it leaves of a record changes along each direction, likewise.
+    pub(super) fn changes(
+        &self,
+        values: &Values,
+        release: Release,
+        run: &Run<'_>,
+        directions: &[Direction],
+    ) -> Option<DMatrix<f64>> {
+        self.takes(run.grid.steps().saturating_mul(directions.len()))?;
+        let beside = run.beside.as_deref();
+        release::changes(values, release, (run.record, beside), &run.grid, directions)
+    }
+
+    /// Takes so many steps of those that are left.
+    fn takes(&self, steps: usize) -> Option<()> {
+        let fewer = |left: usize| left.checked_sub(steps);
+        let order = Ordering::Relaxed;
+        self.left.fetch_update(order, order, fewer).ok().map(|_| ())
     }
 
     /// A better place, after a few steps that are drawn back: what the samples do not tell stays as it is.
@@ -318,10 +336,11 @@ impl Search<'_> {
     }
 
     fn slopes(&self, state: &State) -> Option<Vec<Slopes>> {
-        let pairs = self.runs.iter().zip(&state.courses);
-        pairs
-            .map(|(run, course)| Slopes::about(self, &state.values, run, course))
-            .collect()
+        let pairs: Vec<_> = self.runs.iter().zip(&state.courses).collect();
+        let slopes = parallel::map(&pairs, |(run, course)| {
+            Slopes::about(self, &state.values, run, course)
+        });
+        slopes.into_iter().collect()
     }
 }
 

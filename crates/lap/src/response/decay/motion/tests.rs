@@ -1,5 +1,7 @@
 //! Motions whose samples are known in closed form, or as those of finer steps.
 
+use nalgebra::DVector;
+
 use super::*;
 use crate::response::slider::SliderValues;
 
@@ -106,4 +108,111 @@ fn a_motion_that_grows_is_none_of_a_decay() {
         time_s: 0.0,
     };
     assert_eq!(sampled(&own, &release, &record, &grid), None);
+}
+
+/// By central differences of the samples themselves, of each kind of law and quantity, with a release before the first sample and
+/// one just behind it. The motion turns hundreds of times, and passes the corner of its load in each loop.
+#[test]
+fn changes_are_those_of_differences() {
+    use crate::response::slider::{Slider, SliderParameter as Of};
+    use ResponseUnknown::{
+        JointDamping, JointStiffness, Mass, Slider as OfSlider, SupportDamping, SupportStiffness,
+        Term as OfTerm,
+    };
+    use bolted_joint_dynamics::law::Term;
+    let base = Values {
+        support_stiffness: 2e4,
+        support_damping: 0.5,
+        ..values()
+    };
+    let cubic = |mut own: Values| {
+        *own.terms.coefficient_mut(Term::CUBIC) = 1e11;
+        *own.terms.coefficient_mut(Term::ALL[3]) = 1e6;
+        own
+    };
+    let beside = |slider| Values {
+        slider: Some(slider),
+        ..base
+    };
+    let bodies = [
+        Mass,
+        SupportStiffness,
+        SupportDamping,
+        JointStiffness,
+        JointDamping,
+    ];
+    let of = |more: &[ResponseUnknown]| [&bodies, more].concat();
+    let iwan = [Of::SlipForce, Of::Stiffness, Of::Exponent, Of::Ratio].map(OfSlider);
+    let cases = [
+        (
+            cubic(base),
+            of(&[OfTerm(Term::CUBIC), OfTerm(Term::ALL[3])]),
+            Quantity::Velocity,
+        ),
+        (
+            beside(SliderValues::jenkins(6e4, 6.0, 3e-4)),
+            of(&[Of::Stiffness, Of::SlipForce].map(OfSlider)),
+            Quantity::Displacement,
+        ),
+        (
+            beside(SliderValues::iwan(
+                Slider::MicroSlip,
+                2e4,
+                -0.4,
+                [1.0, 1.0],
+                3e-4,
+            )),
+            of(&[Of::Density, Of::Exponent].map(OfSlider)),
+            Quantity::Acceleration,
+        ),
+        (
+            cubic(beside(SliderValues::iwan(
+                Slider::Iwan,
+                2e4,
+                -0.4,
+                [0.6, 0.5],
+                3e-4,
+            ))),
+            of(&[&iwan[..], &[OfTerm(Term::CUBIC)]].concat()),
+            Quantity::Acceleration,
+        ),
+    ];
+    for (number, (own, unknowns, quantity)) in cases.into_iter().enumerate() {
+        let record = record(quantity, 1.3e-4);
+        let grid = Grid::of(&record, 2000, 707.0);
+        for time_s in [-1e-3, 1e-4] {
+            let release = Release {
+                displacement_m: -3e-4,
+                time_s,
+            };
+            let at = |own: &Values, release: &Release| {
+                let samples = sampled(own, release, &record, &grid);
+                DVector::from_vec(samples.unwrap())
+            };
+            let directions = unknowns.iter().copied().map(Direction::Unknown);
+            let of_release = [Direction::Displacement, Direction::Time];
+            let directions: Vec<Direction> = directions.chain(of_release).collect();
+            let found = changes(&own, &release, &record, &grid, &directions).unwrap();
+            for (column, direction) in found.column_iter().zip(&directions) {
+                let mut sides = [(own, release); 2];
+                let step = match direction {
+                    Direction::Unknown(OfSlider(_)) => 1e-5,
+                    Direction::Unknown(unknown) => 1e-5 * own.of(*unknown).abs(),
+                    Direction::Displacement => 1e-9,
+                    Direction::Time => 1e-8,
+                };
+                for ((values, release), sign) in sides.iter_mut().zip([1.0, -1.0]) {
+                    *match direction {
+                        Direction::Unknown(unknown) => values.place(*unknown).unwrap(),
+                        Direction::Displacement => &mut release.displacement_m,
+                        Direction::Time => &mut release.time_s,
+                    } += sign * step;
+                }
+                let [above, below] = sides.map(|(values, release)| at(&values, &release));
+                let expected = (above - below) / (2.0 * step);
+                let error = (column - &expected).norm() / expected.norm();
+                assert!(error < 1e-4, "{number} {time_s} {direction:?}: {error:e}");
+            }
+        }
+    }
 }

@@ -15,6 +15,7 @@ use super::study::LapResponseStudy;
 use super::terms::TermSet;
 use crate::error::LapError;
 use bolted_joint_study::StudyError;
+use bolted_joint_wanted::{Pieces, step};
 
 /// How often decays are read anew as the model of the fit before would be, while models are compared, …
 const READINGS: usize = 2;
@@ -124,12 +125,17 @@ pub(super) fn choose(
     }
     let mut candidates = Vec::new();
     let mut failure = None;
+    let (count, weight) = (all.len(), all.iter().map(TermSet::effort).sum());
+    let step = step("laws", Pieces::Weighed { count, weight });
     for terms in all {
+        let effort = terms.effort();
         match candidate(study, &runs, &backbones, terms) {
             Ok(candidate) => candidates.push(at_kinks(study, candidate)),
             Err(error) => failure = Some(failure.unwrap_or(error)),
         }
+        step.done_weighing(effort);
     }
+    drop(step);
     let bic = |candidate: &Candidate| candidate.bic(study.noise.is_stated);
     let least = candidates.iter().map(bic).fold(f64::INFINITY, f64::min);
     let comparison = candidates.iter().map(|candidate| ModelComparison {
@@ -180,6 +186,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
     let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
     let mut found = candidate;
     let mut moved_by = f64::INFINITY;
+    let step = step("readings of decays", Pieces::AtMost(MOST_READINGS));
     for _ in 0..MOST_READINGS {
         let near = |run: &BackboneRun| match moved_by < NEAR {
             true => run.following.clone(),
@@ -212,6 +219,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
         found.free = free.filter(|free| free.chi_squared < fit.chi_squared);
         found.fit = fit;
         found.backbones = read;
+        step.done();
         if moved < READ * READ {
             break;
         }
@@ -225,6 +233,7 @@ fn in_time(study: &LapResponseStudy, candidate: Candidate, is_first: bool) -> Ca
     if measured.iter().all(|run| run.recorded.is_none()) {
         return candidate;
     }
+    let _step = step("samples of decays", Pieces::Unknown);
     let model = candidate.model(study);
     // where reading came to nothing one of the fits before may be nearer
     let read = [&candidate.fit, &candidate.corrected, &candidate.first];
@@ -270,7 +279,9 @@ fn of_another_law(
     let likely = polynomials.into_iter().take(MOST_POLYNOMIALS).chain(alone);
     let of_samples = |candidate: &Candidate| candidate.bic(study.noise.is_stated);
     let best = |candidates: Vec<Candidate>| {
+        let step = step("laws on samples", Pieces::Exactly(candidates.len()));
         let fitted = candidates.into_iter().map(|one| in_time(study, one, false));
+        let fitted = fitted.inspect(|_| step.done());
         let fitted = fitted.filter(|one| one.in_time == InTime::Fitted);
         fitted.min_by(|one, other| of_samples(one).total_cmp(&of_samples(other)))
     };
@@ -296,6 +307,7 @@ fn refined(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) ->
     if model.harmonics == 1 || lines.is_empty() || model.terms.slider().is_some() || is_wrong {
         return candidate;
     }
+    let _step = step("harmonics", Pieces::Unknown);
     let backbones = candidate.backbones.clone();
     let backbones: Vec<&BackboneRun> = backbones.iter().collect();
     let data = Data {

@@ -1,13 +1,18 @@
 //! Progress on stderr for work that takes more than a second: how much is done and how long the rest takes, on a terminal only.
 
+mod steps;
+
+use std::fmt;
 use std::io::{self, IsTerminal as _};
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use bolted_joint_wanted::Told;
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use self::steps::Steps;
 use bolted_joint::identify::Watch;
 
 /// Work shorter than this shows nothing.
@@ -18,19 +23,21 @@ const NAME: usize = 14;
 /// Steps of a bar whose work is not counted in pieces.
 const FINE: u32 = 1000;
 
-const WAITING: &str = "{msg} … {elapsed}";
+const WAITING: &str = "{msg} … {elapsed}{steps}";
 const COUNTING: &str = "{msg} [{wide_bar}] {pos} of {len}, {eta} left";
 const SHARE: &str = "{msg} [{wide_bar}] {percent} %, {eta} left";
 const READING: &str = "{msg} [{wide_bar}] {decimal_bytes} of {decimal_total_bytes}, {eta} left";
 
-/// Says, from the second second on, how long the work has taken or how much of it is done, and how much of a file has been read.
-/// However the work ends, the lines go away.
+/// Says, from the second second on, how long the work has taken or how much of it is done, which steps it is in, and how much of a
+/// file has been read. However the work ends, the lines go away.
 pub(super) struct Progress {
     lines: MultiProgress,
     work: ProgressBar,
     /// How the work is shown once some of it is done.
     known: &'static str,
     reading: Mutex<Option<ProgressBar>>,
+    /// Steps of the work of the thread that began this.
+    _told: Option<Told>,
 }
 
 impl Progress {
@@ -47,7 +54,11 @@ impl Progress {
     fn begin(work: &'static str, total: u64, known: &'static str) -> Self {
         let lines = MultiProgress::with_draw_target(ProgressDrawTarget::hidden());
         let bar = line(&lines, total, WAITING, work.to_owned());
+        let mut told = None;
         if io::stderr().is_terminal() {
+            let steps = Arc::new(Steps::default());
+            bar.set_style(with_steps(Arc::clone(&steps)));
+            told = Some(bolted_joint_wanted::tell(steps));
             bar.enable_steady_tick(BETWEEN_LINES);
             let (lines, bar) = (lines.clone(), bar.downgrade());
             thread::spawn(move || {
@@ -62,6 +73,7 @@ impl Progress {
             work: bar,
             known,
             reading: Mutex::new(None),
+            _told: told,
         }
     }
 
@@ -86,6 +98,14 @@ impl Progress {
             self.work.reset_eta();
         }
     }
+}
+
+/// Does work of which nothing is counted, beside a line that says how long it has taken.
+pub(super) fn watched<T>(work: &'static str, result: impl FnOnce() -> T) -> T {
+    let progress = Progress::new(work, 0);
+    let result = result();
+    drop(progress);
+    result
 }
 
 impl Watch for Progress {
@@ -118,6 +138,16 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template)
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .progress_chars("#-")
+}
+
+/// Before the first piece is done, and of work that is not counted.
+fn with_steps(steps: Arc<Steps>) -> ProgressStyle {
+    style(WAITING).with_key(
+        "steps",
+        move |_: &ProgressState, out: &mut dyn fmt::Write| {
+            let _ = out.write_str(&steps.words(Instant::now()));
+        },
+    )
 }
 
 /// The end of a long name tells files apart.

@@ -148,47 +148,110 @@ fn of_method(method: Method, keys: &Keys) -> Schema {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::{HashMap, HashSet};
     use std::path::Path;
 
     use super::Schema;
 
-    /// `UPDATE_SCHEMA=1 cargo test --workspace --lib study_schema` writes it anew.
-    /// Keys of a schema that have no description, with their paths.
-    fn undescribed(schema: &Schema, path: &str, found: &mut Vec<String>) {
+    /// Path and description of each key of a schema.
+    fn described(schema: &Schema, path: &[String], found: &mut Vec<(Vec<String>, String)>) {
         match schema {
             Schema::Object(own) => {
                 for (name, value) in own {
                     if let ("properties", Schema::Object(keys)) = (name.as_str(), value) {
                         for (key, value) in keys {
-                            let path = format!("{path}.{key}");
+                            let path = [path, std::slice::from_ref(key)].concat();
                             let words = value["description"].as_str().unwrap_or_default();
-                            if words.is_empty() {
-                                found.push(path.clone());
-                            }
-                            undescribed(value, &path, found);
+                            found.push((path.clone(), words.to_owned()));
+                            described(value, &path, found);
                         }
                     } else {
-                        undescribed(value, path, found);
+                        described(value, path, found);
                     }
                 }
             }
-            Schema::Array(list) => list
-                .iter()
-                .for_each(|value| undescribed(value, path, found)),
+            Schema::Array(list) => list.iter().for_each(|value| described(value, path, found)),
             _ => {}
         }
     }
 
-    #[test]
-    fn every_key_has_a_description() {
+    fn all_described() -> Vec<(Vec<String>, String)> {
         let mut found = Vec::new();
         for alternative in super::schema()["oneOf"].as_array().unwrap() {
-            let title = alternative["title"].as_str().unwrap();
-            undescribed(alternative, title, &mut found);
+            described(alternative, &[], &mut found);
         }
+        found
+    }
+
+    #[test]
+    fn every_key_has_a_description() {
+        let mut found = all_described();
+        // a mark between cells has no place in a sentence
+        found.retain(|(_, words)| words.is_empty() || words.contains('|'));
         assert!(found.is_empty(), "{} keys: {found:#?}", found.len());
     }
 
+    /// Read off of the page without what makes the schema: the last cell of each row that names a key with its table, in the section
+    /// of all studies. A study's own section may say more of it.
+    #[test]
+    fn a_key_whose_row_names_its_table_has_the_words_of_that_row() {
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/file-formats.md");
+        let page = std::fs::read_to_string(page).unwrap();
+        let mut rows: HashMap<String, Vec<String>> = HashMap::new();
+        let mut of_all = HashSet::new();
+        let mut heading = "";
+        for line in page.lines() {
+            if line.starts_with('#') {
+                heading = line.trim_matches(['#', ' ', '`', '[', ']']);
+            }
+            if !line.starts_with("| `") {
+                continue;
+            }
+            let cells: Vec<&str> = line.trim_matches('|').split('|').collect();
+            let last = cells[cells.len() - 1].trim();
+            // up to the first link or mark
+            let words = last.split(['[', '`', '*']).next().unwrap();
+            let mut table = heading.to_owned();
+            let keys = cells[0].replace(".NAME", "");
+            for key in keys.split('`').skip(1).step_by(2) {
+                // a section of one table names it in its heading, and `.b` is in the table of the key before it
+                let (own, key) = key.rsplit_once('.').unwrap_or(("", key));
+                if !own.is_empty() {
+                    own.clone_into(&mut table);
+                }
+                let key = format!("{table}.{key}");
+                if heading == "Keys within tables" {
+                    of_all.insert(key.clone());
+                }
+                rows.entry(key).or_default().push(words.to_owned());
+            }
+        }
+        let mut compared = 0;
+        for (path, words) in all_described() {
+            let is_part = |name: &&String| !matches!(name.as_str(), "a" | "b" | "c" | "d" | "far");
+            let tables: Vec<&String> = path[..path.len() - 1].iter().filter(is_part).collect();
+            // the row that names most of the tables
+            let keys = (0..tables.len()).map(|from| {
+                let mut names: Vec<&str> =
+                    tables[from..].iter().map(|name| name.as_str()).collect();
+                names.push(&path[path.len() - 1]);
+                names.join(".")
+            });
+            let found = keys.filter_map(|key| rows.get_key_value(&key)).next();
+            let Some((_, of_rows)) = found.filter(|(key, _)| of_all.contains(*key)) else {
+                continue;
+            };
+            compared += 1;
+            assert!(
+                of_rows.iter().any(|own| words.starts_with(own)),
+                "{}: {words:?} is none of {of_rows:?}",
+                path.join(".")
+            );
+        }
+        assert!(compared > 100, "{compared}");
+    }
+
+    /// `UPDATE_SCHEMA=1 cargo test --release --lib schema` writes it anew.
     #[test]
     fn the_study_schema_of_the_documents_is_what_the_tables_read() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/study.schema.json");

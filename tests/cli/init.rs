@@ -69,6 +69,10 @@ fn a_study_is_made_of_the_files_that_are_there() {
         "init",
         &["--output: found ./study.toml", "there is one already"],
     );
+    bench.refused(
+        "init b.uff",
+        &["b.uff: found a file, expected the folder with the measurements"],
+    );
     bench.done("init -o other.toml");
     has(
         &bench.done("init -o -").stdout,

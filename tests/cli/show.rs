@@ -324,6 +324,8 @@ fn what_cannot_be_shown_is_said() {
     let bench = bench();
     bench.write("p.png", PNG);
     bench.write("o.json", "{\"a\": 1}");
+    bench.write("e.toml", "");
+    bench.write("e.joint.json", "\n");
     bench.write(
         "v.mat",
         b"MATLAB 7.3 MAT-file, Platform: GLNXA64, HDF5 schema 1.00 .",
@@ -339,6 +341,8 @@ fn what_cannot_be_shown_is_said() {
         ("show p.png", ["p.png: found a file of an unknown kind", "an FMU or an SSP"]),
         ("show o.json", ["o.json: found a JSON file", "expected measured functions"]),
         ("show .", [".: found a folder", "check the path"]),
+        ("show e.toml", ["e.toml: found an empty file", "a study, an assembly, a joint file"]),
+        ("show e.joint.json", ["e.joint.json: found an empty file", "a study, an assembly, a joint file"]),
         ("show v.mat", ["v.mat", "7.3"]),
         ("show u.csv", ["the unit \"furlong\"", "state units in the study"]),
         ("show beams.toml", ["missing.json", "cannot be read"]),

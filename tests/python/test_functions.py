@@ -147,6 +147,7 @@ def test_functions_that_were_not_measured_are_told(tmp_path):
         ((F, H, ["1", "2:+Y"], NAMES), "responses: found '1', expected NODE:DIRECTION"),
         ((F, H, NAMES, ["1:+W", "2:+Y"]), r"references: found '1:\+W', expected NODE:DIRECTION"),
         ((F, H, 5, NAMES), "responses: found 5, expected a list of DOFs"),
+        ((F, H, [], NAMES), r"\(3, 2, 2\), expected \(3, 0, 2\): .*; responses and references need a name for each"),
         ((F, with_one(np.nan), NAMES, NAMES), r"values: found .nan.* at line 1 \(2 Hz\) of 1:\+Y/2:\+Y, expected"),
         ((F, with_one(np.inf), NAMES, NAMES), r"values: found .inf.* at line 1 \(2 Hz\) of 1:\+Y/2:\+Y, .* leave"),
     ],

@@ -86,6 +86,9 @@ def test_what_is_ambiguous_or_missing_is_named(demo, run, tmp_path, ending):
     refused(renamed({**arrays, "H": arrays["H"].real}, H="march"), "found the arrays", "march", "the matrix of functions")
     refused(renamed(arrays, freq="omega"), "omega", "expected frequency (Hz)")
     refused(renamed(arrays, response="nodes"), "nodes", "expected response, degrees of freedom")
+    for nameless, found in [(np.array([1, 2, 3]), "numbers"), (np.array([]), "no entry"), (np.array([], "U4"), "no entry")]:
+        refused(usual(demo, response=nameless), f"array response: found {found}", '"11:+Y" for each, a node and a direction')
+    refused(usual(demo, response=["11", "12", "13"]), "array response, entry 1: ", "NODE:DIRECTION")
     refused(usual(demo, axes=None), "which is either")
     refused(usual(demo, response=["11:+Y", "11:+Y", "12:+Y"]), "twice")
     refused(usual(demo, H=arrays["H"][:-1]), "shape")
@@ -152,6 +155,36 @@ def test_a_misspelt_name_gets_the_one_that_was_meant(demo, study, names, meant, 
     save(study.folder / f"c.{ending}", renamed(usual(demo), **names))
     _, done = study(f'frf = "c.{ending}"', expect=1)
     assert done.stderr.rstrip().endswith(meant)
+
+
+OPTIONAL = {
+    "quantity": ("quantitiy", "receptance"),
+    "unit": ("uint", "m/N"),
+    "axes": ("axis", "response,reference,frequency"),
+    "averages": ("avarages", 10.0),
+    "coherence": ("coherance", None),
+}
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat"])
+@pytest.mark.parametrize(("meant", "own"), OPTIONAL.items(), ids=OPTIONAL)
+def test_a_misspelt_array_that_may_be_left_out_is_told(demo, study, meant, own, ending):
+    """Without a word the functions would be another quantity, in other units, or have another noise."""
+    name, value = own
+    arrays = usual(demo)
+    arrays.pop(meant, None)
+    arrays[name] = np.ones(arrays["H"].shape) if value is None else value
+    save(study.folder / f"c.{ending}", arrays)
+    _, done = study(f'frf = "c.{ending}"\nquantity = "receptance"', expect=1)
+    assert f"array {name}: " in done.stderr and f"did you mean `{meant}`?" in done.stderr
+
+
+@pytest.mark.parametrize("ending", ["npz", "mat"])
+def test_arrays_of_other_kinds_may_have_any_name(demo, study, ending):
+    # near names, but no text, no number and no matrix of this size
+    others = {"quantities": np.ones(3), "average": np.ones(2), "coherances": np.ones(4), "date": "May", "unity": np.eye(2)}
+    save(study.folder / f"c.{ending}", usual(demo, quantity=None, unit=None) | others)
+    study(f'frf = "c.{ending}"\nquantity = "receptance"')
 
 
 def test_a_misspelt_quantity_gets_the_one_that_was_meant(demo, study):

@@ -2,14 +2,18 @@
 
 import json
 import os
+import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 pty = pytest.importorskip("pty", reason="no terminals of this kind on this system")
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 DRAWS = 200
 # of a large file
 SIZE = 500_000_000
@@ -102,3 +106,68 @@ def test_a_large_file_is_not_held(large, demo):
     assert peak < 200e6
     mine, theirs = (json.loads(path.read_text())["joint"] for path in [large[-1], demo / "m10x16.joint.json"])
     assert mine == theirs
+
+
+# What the line of work says beside the time that has passed: steps with what is done of them, and how long the rest takes.
+STEP = r"{work} … [\dsmh]+, (?:[^\r\x1b]*; )?{name} (\d+) of (at most )?(\d+)(, \S+ left)?"
+
+
+def steps_seen(command, work, name):
+    """Pieces that were done of a step, of how many, and whether the time that is left was told."""
+    _, text = seen_by_a_terminal(command)
+    # the line is gone at the end
+    assert f"{work} …" not in text.rsplit("\x1b[2K", 1)[1]
+    found = [(int(done), int(count), bool(left)) for done, _, count, left in re.findall(STEP.format(work=work, name=name), text)]
+    assert found, text[-2000:]
+    assert all(0 <= done <= count for done, count, _ in found)
+    return found
+
+
+@pytest.mark.long
+def test_a_plan_counts_candidates(program, tmp_path):
+    study = ROOT / "examples/plan-in-space/study.toml"
+    found = steps_seen([program, "respond", study, "--plan", "--add", "6", "--step", "0.05"], "planning", "candidates")
+    counts = {count for _, count, _ in found}
+    assert len(counts) == 1
+    # told as soon as one is done
+    assert all(left == (done > 0) for done, _, left in found)
+    assert [done for done, _, _ in found] == sorted(done for done, _, _ in found)
+
+
+@pytest.mark.long
+def test_laws_of_a_lap_are_counted(program, tmp_path):
+    """Of x (k + ¾ k₃ x² − M ω² + jωc) = F on a grid of amplitudes, with noise: all laws are compared."""
+    random = np.random.default_rng(2)
+    rows = []
+    for hz in np.linspace(100, 125, 1200):
+        omega, amplitude = 2 * np.pi * hz, 10 ** random.uniform(-6, -4)
+        force = amplitude * (5e5 + 0.75 * 2e11 * amplitude**2 - omega**2 + 8j * omega)
+        phase = -np.degrees(np.angle(force)) + random.normal()
+        rows.append([hz, abs(force), amplitude * (1 + 0.01 * random.normal()), phase])
+    head = "frequency_hz,force_n,displacement_m,phase_deg"
+    np.savetxt(tmp_path / "run.csv", rows, delimiter=",", header=head, comments="")
+    (tmp_path / "study.toml").write_text(
+        'method = "lap-response"\nname = "x"\n[model]\ndrive = "relative"\nresponse = "relative"\n[[sine]]\nfile = "run.csv"\n',
+        encoding="utf-8",
+    )
+    found = steps_seen([program, "identify", tmp_path / "study.toml", "-o", tmp_path / "o.joint.json"], "identifying", "laws")
+    assert {count for _, count, _ in found} == {18}
+    assert all(left == (done > 0) for done, _, left in found)
+    assert len({done for done, _, _ in found}) > 2
+
+
+@pytest.mark.long
+def test_steps_to_a_joint_are_told_without_draws(program, demo, tmp_path):
+    joint = ["--joint", demo / "m10x16.joint.json", "--step", "0.01"]
+    for file in ("study.toml", "a-modes.toml"):
+        shutil.copy(demo / file, tmp_path)
+    command = [program, "respond", demo / "study.toml", *joint, "-o", tmp_path / "c.npz", "noise", "frf"]
+    subprocess.run(command, check=True, capture_output=True)
+    study = (tmp_path / "study.toml").read_text(encoding="utf-8").replace("assembly.uff", "c.npz")
+    (tmp_path / "study.toml").write_text(study, encoding="utf-8")
+    _, text = seen_by_a_terminal([program, "identify", tmp_path / "study.toml", "-o", tmp_path / "o.joint.json"])
+    steps = ("functions at the lines", "values that noise", "decoupling", "searches", "the best at all lines", "other joint models")
+    seen = [step for step in steps if re.search(rf"identifying … \w+, {step}", text)]
+    assert len(seen) >= 2, text[-2000:]
+    # a search ends where more starts are not needed, so that nobody knows how long it takes
+    assert not re.search(r"searches \d+ of at most \d+, ", text)

@@ -24,8 +24,35 @@ const NOT_TAKEN: &str = "invalid value: string \"";
 /// What it says of a key that is missing, up to its name.
 const MISSING: &str = "missing field `";
 
-/// A message of a parser's with the word that was meant: by the words that it names itself, or where a key is missing by those of
-/// the `keys` that are there.
+/// What serde calls a type that it expected, at the end of its message, and what people call it.
+const TYPES: [(&str, &str); 12] = [
+    ("f64", "a number"),
+    ("u8", "a whole number"),
+    ("u16", "a whole number"),
+    ("u32", "a whole number"),
+    ("u64", "a whole number"),
+    ("usize", "a whole number"),
+    ("i32", "a whole number"),
+    ("i64", "a whole number"),
+    ("a boolean", "true or false"),
+    ("a string", "a text"),
+    ("a sequence", "a list"),
+    ("a map", "a table"),
+];
+
+/// A message that ends in the name of a type, with the word that people have for it.
+fn in_words(message: &str) -> String {
+    let known = message.rsplit_once(", expected ").and_then(|(found, own)| {
+        let known = TYPES.iter().find(|(name, _)| *name == own);
+        let words = known.map(|(_, words)| *words);
+        let words = words.or_else(|| own.starts_with("struct ").then_some("a table"))?;
+        Some(format!("{found}, expected {words}"))
+    });
+    known.unwrap_or_else(|| message.to_owned())
+}
+
+/// A message of a parser's in words, with the one that was meant: by the words that it names itself, or where a key is missing by
+/// those of the `keys` that are there.
 #[must_use]
 pub fn with_meant<'a>(message: &str, keys: impl IntoIterator<Item = &'a str>) -> String {
     let unknown = || {
@@ -46,7 +73,7 @@ pub fn with_meant<'a>(message: &str, keys: impl IntoIterator<Item = &'a str>) ->
         Some(format!("; found `{found}`, did you mean `{missing}`?"))
     };
     let suggestion = unknown().or_else(not_taken).or_else(missing);
-    message.to_owned() + &suggestion.unwrap_or_default()
+    in_words(message) + &suggestion.unwrap_or_default()
 }
 
 /// The words of a text that stand between such marks.
@@ -113,6 +140,20 @@ mod tests {
         for (message, expected) in cases {
             let found = with_meant(message, ["pionts", "mode"]);
             assert_eq!(found, format!("{message}{expected}"));
+        }
+    }
+
+    #[test]
+    fn a_message_names_types_as_people_do() {
+        #[rustfmt::skip]
+        let cases = [
+            ("line 2\ninvalid type: string \"5 Hz\", expected f64", "line 2\ninvalid type: string \"5 Hz\", expected a number"),
+            ("invalid type: floating point `1.5`, expected usize", "invalid type: floating point `1.5`, expected a whole number"),
+            ("invalid type: integer `5`, expected struct Joint", "invalid type: integer `5`, expected a table"),
+            ("invalid type: map, expected a length", "invalid type: map, expected a length"),
+        ];
+        for (message, expected) in cases {
+            assert_eq!(with_meant(message, []), expected);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Joint models beside each other: the simplest one that explains the data, by likelihood and number of unknowns.
 
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::DVector;
 
 use super::estimator::Estimate;
@@ -74,36 +75,45 @@ pub(super) fn compare(problem: &Problem<'_>, layout: &Layout, found: &Found) -> 
         JointModel::Diagonal,
         JointModel::Full,
     ];
+    let all = all.into_iter().filter_map(|other| layout.with_model(other));
+    let all: Vec<Layout> = all.collect();
+    let others = all.iter().filter(|other| *other != layout).count();
+    let step = step("other joint models", Pieces::Exactly(others));
+    let compared = |other: Layout| {
+        let torques = found.estimate.unknowns.as_slice();
+        let starts: Vec<_> = torques
+            .chunks_exact(layout.unknowns())
+            .map(|unknowns| vec![embedded(layout, unknowns, &other)])
+            .collect();
+        let start = &starts.first()?[0];
+        if let Some(excess) = problem.hopeless_excess(layout, &found.estimate, &other, start) {
+            let numbers = 2.0 * found.estimate.measurements as f64;
+            let misfit = found.estimate.misfit + excess;
+            return Some(Compared {
+                unknowns: other.unknowns(),
+                misfit,
+                bic: misfit + other.unknowns() as f64 * numbers.ln(),
+                layout: other,
+                found: None,
+            });
+        }
+        let found = problem
+            .best(&other, &starts, Effort::Related, Some(&found.used))
+            .ok()?;
+        Some(Compared::of(other, found.without_corrections()))
+    };
     let fits: Vec<Compared> = all
         .into_iter()
-        .filter_map(|other| layout.with_model(other))
         .filter_map(|other| {
             if other == *layout {
                 return Some(Compared::of(other, found.clone()));
             }
-            let torques = found.estimate.unknowns.as_slice();
-            let starts: Vec<_> = torques
-                .chunks_exact(layout.unknowns())
-                .map(|unknowns| vec![embedded(layout, unknowns, &other)])
-                .collect();
-            let start = &starts.first()?[0];
-            if let Some(excess) = problem.hopeless_excess(layout, &found.estimate, &other, start) {
-                let numbers = 2.0 * found.estimate.measurements as f64;
-                let misfit = found.estimate.misfit + excess;
-                return Some(Compared {
-                    unknowns: other.unknowns(),
-                    misfit,
-                    bic: misfit + other.unknowns() as f64 * numbers.ln(),
-                    layout: other,
-                    found: None,
-                });
-            }
-            let found = problem
-                .best(&other, &starts, Effort::Related, Some(&found.used))
-                .ok()?;
-            Some(Compared::of(other, found.without_corrections()))
+            let fit = compared(other);
+            step.done();
+            fit
         })
         .collect();
+    drop(step);
     let lowest = fits.iter().map(|fit| fit.bic).fold(f64::INFINITY, f64::min);
     let best = fits
         .iter()

@@ -3,6 +3,7 @@
 use bolted_joint_frf::structure::ComplexMatrix;
 use bolted_joint_frf::{Dof, FileSummary};
 use bolted_joint_joint::Provenance;
+use bolted_joint_wanted::{Pieces, step};
 
 use super::assemble::{self, Assembled};
 use super::bootstrap::Bootstrap;
@@ -119,6 +120,7 @@ pub fn identify_and_draw(
     bootstrap: Option<Bootstrap>,
     watch: &dyn Watch,
 ) -> Result<Identification, IdentifyError> {
+    let reading = step("functions at the lines", Pieces::Unknown);
     let Assembled {
         lines: all,
         files,
@@ -126,6 +128,7 @@ pub fn identify_and_draw(
         reasons_against: unsound,
         from_modes,
     } = assemble::lines(study, watch)?;
+    drop(reading);
     let of_b = &all[0].points.clone();
     let dofs = study.dofs_of_a_bolt();
     let labels = match study.points_by_side() {
@@ -154,7 +157,10 @@ pub fn identify_and_draw(
         bootstrap: bootstrap.clone().filter(|_| !has_budget),
         progress: Some(&|| watch.drawn()),
     };
-    let candidates = Candidates::of(&all, [&labels[0], &labels[1]]);
+    let candidates = {
+        let _step = step("values that noise cannot have made", Pieces::Unknown);
+        Candidates::of(&all, [&labels[0], &labels[1]])
+    };
     warnings.extend(candidates.warning());
     let (all, outliers, estimate) = if candidates.is_empty() {
         let estimate = estimated(study, &all, &options)?;
@@ -175,6 +181,7 @@ pub fn identify_and_draw(
         }
     };
     warnings.extend(outliers.warning());
+    let of_set_up = step("errors of the set-up", Pieces::Unknown);
     let slips = || match all.as_slice() {
         [lines] if slips::are_possible(&estimate.assessment) => slips::found(
             lines,
@@ -205,6 +212,7 @@ pub fn identify_and_draw(
         Some(_) => Vec::new(),
         None => slips,
     };
+    drop(of_set_up);
     let estimate = match (&systematic, &bootstrap) {
         (Some(found), bootstrap) => {
             let draws = bootstrap.as_ref().map(|bootstrap| {

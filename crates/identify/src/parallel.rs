@@ -64,6 +64,7 @@ pub fn among_them<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     if IS_IN_PIECE.get() {
         return work();
     }
+    let work = bolted_joint_wanted::handed_on(work);
     rayon::scope(|_| work())
 }
 

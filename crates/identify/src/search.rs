@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bolted_joint_systematic::FAR;
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::DVector;
 
 use super::assessment::{Assessment, assess};
@@ -75,10 +76,13 @@ pub(super) fn best(
         Effort::Whole => candidates.len().min(ENOUGH),
         Effort::BesideBudget | Effort::Related => candidates.len(),
     };
+    let searches = step("searches", Pieces::AtMost(candidates.len()));
     let mut trials = try_starts(data, entries, noise, &candidates[..tried], &mut ways);
+    searches.are_done(tried);
     if tried < candidates.len() && !agree(&trials, noise) {
         let others = &candidates[tried..];
         trials.extend(try_starts(data, entries, noise, others, &mut ways));
+        searches.are_done(others.len());
         tried = candidates.len();
     }
     data.give_standings(entries, &mut trials);
@@ -90,10 +94,15 @@ pub(super) fn best(
     if gives_up {
         trials = best_trials(&trials).into_iter().take(1).cloned().collect();
     }
-    let mut finals = search(&trials, None);
+    drop(searches);
+    let mut finals = {
+        let _step = step("the best at all lines", Pieces::Unknown);
+        search(&trials, None)
+    };
     if effort != Effort::Related && !gives_up {
         let mut others = candidates.split_off(tried);
         others.extend(data.thinned.grid(entries));
+        let searches = step("further searches", Pieces::AtMost(others.len()));
         for part in others.chunks(STARTS_AT_A_TIME) {
             let is_enough = |finals: &Finals| {
                 is_certain(&trials, finals) || is_settled(&trials, finals, entries)
@@ -105,6 +114,7 @@ pub(super) fn best(
             trials.extend(try_starts(data, entries, noise, part, &mut ways));
             data.give_standings(entries, &mut trials);
             finals = search(&trials, finals);
+            searches.are_done(part.len());
         }
     }
     let finals = finals.ok_or(tried)?;

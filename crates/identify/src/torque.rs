@@ -7,6 +7,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
@@ -307,6 +308,7 @@ pub(super) fn compare(
         TorqueDependence::Separate => (Assignment::common(all), vec![joints]),
     };
     let other = Problem::new(assignment, noise)?;
+    let _step = step("the other dependence on the torque", Pieces::Unknown);
     let lines = other.data.used(found.used.chosen.clone());
     let other = other
         .best(layout, &starts, Effort::Related, Some(&lines))

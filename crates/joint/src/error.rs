@@ -178,6 +178,8 @@ impl fmt::Display for TextPlace {
 fn place(path: &str) -> &str {
     match path {
         "." => "the file as a whole",
+        // where the parser does not know either
+        "?" => "its last value",
         path => path,
     }
 }

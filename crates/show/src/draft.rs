@@ -41,6 +41,15 @@ pub enum DraftError {
         /// What the operating system says.
         source: io::Error,
     },
+    /// It is a file.
+    #[error(
+        "{}: found a file, expected the folder with the measurements; give the folder that it is in",
+        path.display()
+    )]
+    File {
+        /// The file.
+        path: PathBuf,
+    },
     /// It has too few files.
     #[error(
         "{}: found {found}, expected measured functions (universal file, CSV, NPZ, MAT) or modes of parts, and functions of their \
@@ -78,6 +87,11 @@ pub enum DraftError {
 /// # Errors
 /// [`DraftError`] if the folder cannot be read, has no such files, or some that leave open which is which.
 pub fn draft(folder: &Path) -> Result<Draft, DraftError> {
+    if folder.is_file() {
+        return Err(DraftError::File {
+            path: folder.to_owned(),
+        });
+    }
     let entries = std::fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
     let entries = entries.map_err(|source| DraftError::Folder {
         path: folder.to_owned(),

@@ -68,10 +68,18 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
 
 /// What cannot be read is told by the reader whose it seems to be; what is read, and is of no kind, with the kinds that there are.
 fn unknown(path: &Path) -> Result<Shown, ShowError> {
-    if !path.exists() || kind::is_blank(path) {
+    let extension = path.extension().unwrap_or_default();
+    let is_blank = kind::is_blank(path);
+    let is_text = |name: &&str| extension.eq_ignore_ascii_case(name);
+    if path.exists() && is_blank && ["toml", "json"].iter().any(is_text) {
+        return Err(ShowError::Kind {
+            path: path.to_owned(),
+            found: "an empty file".to_owned(),
+        });
+    }
+    if !path.exists() || is_blank {
         return functions::or_matrices(path);
     }
-    let extension = path.extension().unwrap_or_default();
     if extension.eq_ignore_ascii_case("toml") {
         StudyText::read(path)?.method()?;
     }

@@ -7,6 +7,7 @@
 use std::borrow::Cow;
 
 use bolted_joint_virtual_point::{Change, Role};
+use bolted_joint_wanted::{Pieces, step};
 
 use crate::budget::TYPICAL_ANEW;
 use crate::error::SpatialError;
@@ -75,6 +76,7 @@ impl SpatialStudy {
         };
         // of one search alone: most that come to nothing have another reason
         let searched = || {
+            let _step = step("sensors or hits elsewhere", Pieces::Unknown);
             let both = self.with_anew(BOTH);
             let found = both.searched(rms, Extent::First);
             let (both, found) = explained(both, found)?;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::DMatrix;
 
 use crate::contradicted;
@@ -123,6 +124,7 @@ impl SpatialStudy {
             Cow::Borrowed(_) => Vec::new(),
         };
         let mut result = own.result(&found)?;
+        let step = step("rounds of the budget", Pieces::AtMost(ROUNDS));
         for _ in 0..ROUNDS {
             // what a budget that does not hold draws back draws the joint with it
             let is_near = found.joint.has_converged && result.relative_rms < LARGEST_RESIDUAL;
@@ -132,6 +134,7 @@ impl SpatialStudy {
             own.to_mut().problem.wider = wider;
             found = own.found_from(&rms, found.begun())?;
             result = own.result(&found)?;
+            step.done();
         }
         result.warnings.extend(of_anew);
         Ok(result)
@@ -179,6 +182,7 @@ impl SpatialStudy {
 
     /// What fits best near there.
     pub(crate) fn found_from(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
+        let _step = step("the estimate at more lines", Pieces::Unknown);
         match self.has_noise() {
             true => self.beside_noise(rms, begun),
             false => self.beside_exact(rms, begun),

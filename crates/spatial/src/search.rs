@@ -1,5 +1,7 @@
 //! The joints alone, searched from several starts: some lead to other minima.
 
+use bolted_joint_wanted::{Pieces, step};
+
 use crate::error::SpatialError;
 use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, Normal};
@@ -72,10 +74,13 @@ pub(crate) fn searched(
     let mut crept: Vec<Fit> = Vec::new();
     let mut tried = 0;
     let Starts { all, in_doubt } = starts(problem, level)?;
+    let step = step("searches", Pieces::AtMost(all.size_hint().1.unwrap_or(0)));
     for start in all {
         tried += 1;
         let effort = Effort::Promising(promising(&ended));
-        let Ok(fit) = Fit::of(problem, start, level, effort) else {
+        let fit = Fit::of(problem, start, level, effort);
+        step.done();
+        let Ok(fit) = fit else {
             continue;
         };
         match fit.has_converged || !is_stated {

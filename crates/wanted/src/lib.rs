@@ -1,6 +1,8 @@
 //! Whether work is still wanted. Who asked for it may give up, as at Ctrl-C in Python: then it ends itself where it next looks, and
-//! does not keep the processors from what is asked for next.
+//! does not keep the processors from what is asked for next. Who waits for it may be told how far it has come.
 #![forbid(unsafe_code)]
+
+mod steps;
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -8,6 +10,8 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+pub use steps::{Listener, Pieces, Step, Told, handed_on, step, tell};
 
 /// As much as the first thread of a process has.
 const STACK_BYTES: usize = 8 << 20;

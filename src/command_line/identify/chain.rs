@@ -11,16 +11,14 @@ use bolted_joint::study::StudyText;
 use super::super::bolt_files::named;
 use super::super::error::CliError;
 use super::super::output::{Outputs, check_output, print, warn};
-use super::super::progress::Progress;
+use super::super::progress::watched;
 use super::super::table::{Table, number};
 use super::IdentifyArguments;
 
 pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<(), CliError> {
-    let study = ChainStudy::of_measured(study)?;
+    let study = watched("reading", || ChainStudy::of_measured(study))?;
     check_output(&arguments.output, &[&arguments.study])?;
-    let progress = Progress::new("identifying", 0);
-    let found = study.identify()?;
-    drop(progress);
+    let found = watched("identifying", || study.identify())?;
     warn(&found.warnings);
     let files: Vec<(PathBuf, _)> = found
         .joints

@@ -14,7 +14,7 @@ use bolted_joint::study::StudyText;
 
 use super::super::error::CliError;
 use super::super::output::{Outputs, check_output, print, warn};
-use super::super::progress::Progress;
+use super::super::progress::watched;
 use super::super::table::{Table, number};
 use super::{IdentifyArguments, chain};
 
@@ -45,17 +45,15 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     }
     let written = arguments.report.as_ref();
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
-    let study = SpatialStudy::of(study)?;
+    let study = watched("reading", || SpatialStudy::of(study))?;
     check_output(&arguments.output, &[&arguments.study])?;
     warn(&study.advice());
-    let phases = study.phases()?;
+    let phases = watched("looking at phases", || study.phases())?;
     warn(&phases);
-    let misfits = study.misfits()?;
+    let misfits = watched("looking at places", || study.misfits())?;
     warn(&misfits.iter().map(Misfit::to_string).collect::<Vec<_>>());
-    let consistency = study.consistency()?;
-    let progress = Progress::new("identifying", 0);
-    let mut found = study.identify(&misfits)?;
-    drop(progress);
+    let consistency = watched("looking at places", || study.consistency())?;
+    let mut found = watched("identifying", || study.identify(&misfits))?;
     warn(&found.warnings);
     // told before the search; a report has them too
     found.warnings.extend(phases);

@@ -10,7 +10,7 @@ use bolted_joint::study::{Method, StudyText};
 use super::super::error::CliError;
 use super::super::identify::chain::{apart_json, apart_text};
 use super::super::output::{CSV, Wrote, check_outputs, print, warn, write_file};
-use super::super::progress::Progress;
+use super::super::progress::watched;
 use super::super::table::{Table, number};
 use super::RespondArguments;
 
@@ -47,10 +47,9 @@ pub(super) fn run(arguments: &RespondArguments, study: &StudyText) -> Result<(),
         [] => Aim::All,
         names => Aim::Numbers(names.to_vec()),
     };
-    let study = ChainStudy::of(study, arguments.step)?;
-    let progress = Progress::new("planning", 0);
-    let plan = study.plan(&aim, arguments.add.unwrap_or(1))?;
-    drop(progress);
+    let study = watched("reading", || ChainStudy::of(study, arguments.step))?;
+    let additions = arguments.add.unwrap_or(1);
+    let plan = watched("planning", || study.plan(&aim, additions))?;
     if let Some(path) = output {
         write_file(path, csv(&plan).as_bytes())?;
     }

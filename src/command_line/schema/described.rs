@@ -42,7 +42,7 @@ impl Keys {
                 before = line.to_owned();
                 is_at_end = true;
             } else if line.starts_with('|') {
-                let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+                let cells = cells_of(line);
                 match &columns {
                     None => columns = Some(cells),
                     Some(_) if line.starts_with("|---") => {}
@@ -72,15 +72,27 @@ impl Keys {
     /// What the key at the end of a path means in the study that a section describes.
     fn words(&self, path: &[String], section: &str) -> Option<&str> {
         let names: Vec<&str> = path.iter().map(String::as_str).collect();
-        [section, WITHIN_TABLES, SHARED]
-            .into_iter()
-            .find_map(|section| self.in_section(&names, section))
+        let sections = [section, WITHIN_TABLES, SHARED];
+        let in_table = |section: &&str| self.in_section(&names, section);
+        let of_part = |section: &&str| self.of_part(&names, section);
+        // rows of the key's own table come first: keys of parts have the same names
+        sections
+            .iter()
+            .find_map(in_table)
+            .or_else(|| sections.iter().find_map(of_part))
             .or_else(|| self.anywhere(names.last()?))
     }
 
+    fn rows(&self, section: &str) -> impl Iterator<Item = &Row> {
+        self.0
+            .iter()
+            .filter(move |row| row.headings.contains(&section))
+    }
+
+    /// In a row that names the table, or in a table of rows that is the key's own.
     fn in_section(&self, path: &[&str], section: &str) -> Option<&str> {
         let (key, tables) = path.split_last()?;
-        let rows = || self.0.iter().filter(|row| row.headings.contains(&section));
+        let rows = || self.rows(section);
         let dotted = dotted(path);
         let dotted = dotted
             .iter()
@@ -100,7 +112,6 @@ impl Keys {
                 _ => row.headings.contains(&"`[a]` and `[b]`") && is_part(tables),
             })
         };
-        let in_part = || named().find(|row| row.headings.last() == Some(&"`[a]` and `[b]`"));
         let is_of = |row: &&Row, table: &str| {
             let heading = row.headings.last().map(|text| text.to_lowercase());
             mentions(&row.before, table) || heading.is_some_and(|text| text.contains(table))
@@ -109,8 +120,18 @@ impl Keys {
             Some(inner) => named().find(|row| is_of(row, inner)),
             None => in_table(),
         });
-        let found = found.or_else(|| if is_part(tables) { in_part() } else { None });
         found.map(|row| row.words.as_str())
+    }
+
+    /// A key of a part, wherever that stands.
+    fn of_part(&self, path: &[&str], section: &str) -> Option<&str> {
+        let (key, tables) = path.split_last()?;
+        let of_part = |row: &&Row| {
+            let is_of_parts = row.headings.last() == Some(&"`[a]` and `[b]`");
+            is_of_parts && row.keys.iter().any(|own| own == key)
+        };
+        let row = is_part(tables).then(|| self.rows(section).find(of_part))??;
+        Some(row.words.as_str())
     }
 
     /// A key that means the same in every table.
@@ -201,6 +222,16 @@ fn mentions(text: &str, name: &str) -> bool {
         .skip(1)
         .step_by(2)
         .any(|code| code.trim_matches(['[', ']']) == name.trim_matches(['[', ']']))
+}
+
+/// The cells of a row, of which some may be empty.
+fn cells_of(line: &str) -> Vec<&str> {
+    let line = line.trim();
+    let line = line.strip_prefix('|').unwrap_or(line);
+    let line = line.strip_suffix('|').unwrap_or(line);
+    let mut before = ' ';
+    let ends = |c: char| std::mem::replace(&mut before, c) != '\\' && c == '|';
+    line.split(ends).map(str::trim).collect()
 }
 
 /// The keys of a row's first cell: `` `a.x`, `.y` `` are `a.x` and `a.y`; NAME stands for any name.
@@ -296,6 +327,12 @@ mod tests {
             words(&columns, &["`x`", "m", "0", "place"]),
             "place (m; default: 0)"
         );
+    }
+
+    #[test]
+    fn a_row_may_have_empty_cells() {
+        assert_eq!(cells_of("| `x` | m | | place |"), ["`x`", "m", "", "place"]);
+        assert_eq!(cells_of(r"| r | \|H\| | |"), ["r", r"\|H\|", ""]);
     }
 
     #[test]

@@ -31,6 +31,12 @@ pub(super) struct Counts {
 }
 
 impl Counts {
+    /// Of the matrix.
+    pub(super) fn elements(self) -> usize {
+        let functions = self.responses.saturating_mul(self.references);
+        functions.saturating_mul(self.frequencies)
+    }
+
     fn of(self, over: Over) -> usize {
         match over {
             Over::Response => self.responses,

@@ -52,7 +52,11 @@ const REFERENCE: &[&str] = &[
     "input",
     "inputs",
 ];
-const COHERENCE: &[&str] = &["coherence", "coh", "gamma_squared", "gamma2"];
+pub(super) const COHERENCE: &[&str] = &["coherence", "coh", "gamma_squared", "gamma2"];
+pub(super) const AXES: &[&str] = &["axes"];
+pub(super) const QUANTITY: &[&str] = &["quantity"];
+pub(super) const UNITS: &[&str] = &["unit", "units"];
+pub(super) const AVERAGES: &[&str] = &["averages", "n_averages", "averages_n"];
 
 /// More functions than any test has: a thousand responses to a thousand references.
 const MOST_FUNCTIONS: usize = 1 << 20;
@@ -62,6 +66,13 @@ pub(super) fn is_of_functions(name: &str) -> bool {
     let roles = [FREQUENCY, MATRIX, RESPONSE, REFERENCE, COHERENCE];
     let mut known = roles.into_iter().flatten();
     known.any(|known| known.eq_ignore_ascii_case(name))
+}
+
+/// Whether an array of this name means anything beside functions.
+pub(super) fn is_known(name: &str) -> bool {
+    let beside = [AXES, QUANTITY, UNITS, AVERAGES];
+    let mut known = beside.into_iter().flatten();
+    is_of_functions(name) || known.any(|known| known.eq_ignore_ascii_case(name))
 }
 
 /// Reads the functions of a file of arrays, if it could be opened.
@@ -142,6 +153,7 @@ fn functions_of<F: ArrayFile>(
     let averages = members.averages()?;
     let of_matrix = matrix.as_ref().or(coherence.as_ref());
     let of_matrix = of_matrix.cloned().unwrap_or_default();
+    members.refuse_misspelt(counts.elements())?;
     // Before anything is reserved for them: as many functions as the names make are in the file, and not too many, since a
     // swollen matrix takes next to no room there.
     let matrix_place = place(&of_matrix, &members.numbers(&of_matrix)?)?;

@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use bolted_joint_files::nearest;
 
-use super::functions::is_of_functions;
+use super::functions::{AVERAGES, is_of_functions};
 use super::matrices::{MASS, STIFFNESS};
 use super::{Array, ArrayFile, Element, Kind};
 use crate::{Dof, Quantity, TableProblem};
@@ -170,7 +170,7 @@ impl<F: ArrayFile> Members<'_, F> {
     }
 
     pub(super) fn averages(&mut self) -> Result<Option<f64>, TableProblem> {
-        let Some(name) = self.find(&["averages", "n_averages", "averages_n"])? else {
+        let Some(name) = self.find(AVERAGES)? else {
             return Ok(None);
         };
         let name = name.as_str();
@@ -201,6 +201,15 @@ impl<F: ArrayFile> Members<'_, F> {
 
     pub(super) fn dofs(&mut self, name: &str) -> Result<Vec<Dof>, TableProblem> {
         let array = self.array(name)?;
+        let found = match array.kind() {
+            _ if array.shape().contains(&0) => Some("no entry"),
+            Kind::Real | Kind::Complex => Some("numbers"),
+            Kind::Text => None,
+        };
+        if let Some(found) = found {
+            let expected = "a text such as \"11:+Y\" for each, a node and a direction; save it as a list of texts";
+            return Err(value(name, found, expected));
+        }
         one_axis(name, &array)?;
         let mut known = BTreeSet::new();
         let mut dofs = Vec::new();

@@ -8,6 +8,7 @@ mod functions;
 mod matrices;
 mod matrix;
 mod members;
+mod misspelt;
 
 use num_complex::Complex64;
 

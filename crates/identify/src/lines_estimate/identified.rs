@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::DVector;
 
 use bolted_joint_frf::Dof;
@@ -80,6 +81,7 @@ fn identified(
         .zip(on_a)
         .map(|(lines, on_a)| Equations::of(lines, on_a))
         .collect();
+    let decoupling = step("decoupling", Pieces::Unknown);
     let problem = Problem::new(assignment, noise).ok_or_else(|| no_estimate(all, 0))?;
     let each = all.iter().zip(&equations);
     let decoupled: Vec<_> = each
@@ -99,6 +101,7 @@ fn identified(
         .iter()
         .map(|averages| starts(&layout, options.start.as_ref(), averages.as_deref()))
         .collect();
+    drop(decoupling);
     let (found, own_hz) = parallel::beside(
         || problem.best(&layout, &starts, options.effort(), None),
         || {
@@ -117,7 +120,10 @@ fn identified(
     let estimate = &found.estimate;
     let names = options.bolts.with_own_joint();
     let covariance = CovarianceOfAll::of(&objective, noise, &found, observed.as_ref());
-    let passive = passive::passive(&objective, &layout, noise, estimate);
+    let passive = {
+        let _step = step("the passive joint", Pieces::Unknown);
+        passive::passive(&objective, &layout, noise, estimate)
+    };
     let draws = options.bootstrap.as_ref().and_then(|bootstrap| {
         let progress = options.progress.unwrap_or(&|| ());
         let draws = bootstrap::draws(&objective, &places, noise, estimate, bootstrap, progress)?;

@@ -16,6 +16,7 @@ use super::study::LapResponseStudy;
 use super::terms::TermSet;
 use crate::error::LapError;
 use bolted_joint_study::StudyError;
+use bolted_joint_wanted::{Pieces, step};
 
 /// How often decays are read anew as the model of the fit before would be, while models are compared, …
 const READINGS: usize = 2;
@@ -125,10 +126,16 @@ pub(super) fn choose(
     }
     let mut candidates = Vec::new();
     let mut failure = None;
+    let (count, weight) = (all.len(), all.iter().map(TermSet::effort).sum());
+    let step = step("laws", Pieces::Weighed { count, weight });
     let fitted = parallel::map_each(all, |terms| {
+        let effort = terms.effort();
         let own = candidate(study, &runs, &backbones, terms);
-        own.map(|own| at_kinks(study, own))
+        let own = own.map(|own| at_kinks(study, own));
+        step.done_weighing(effort);
+        own
     });
+    drop(step);
     for fitted in fitted {
         match fitted {
             Ok(candidate) => candidates.push(candidate),
@@ -185,6 +192,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
     let lines: Vec<SineLine> = runs.iter().flat_map(|run| run.lines.clone()).collect();
     let mut found = candidate;
     let mut moved_by = f64::INFINITY;
+    let step = step("readings of decays", Pieces::AtMost(MOST_READINGS));
     for _ in 0..MOST_READINGS {
         let near = |run: &BackboneRun| match moved_by < NEAR {
             true => run.following.clone(),
@@ -217,6 +225,7 @@ fn read_to_the_end(study: &LapResponseStudy, candidate: Candidate, runs: &[&Sine
         found.free = free.filter(|free| free.chi_squared < fit.chi_squared);
         found.fit = fit;
         found.backbones = read;
+        step.done();
         if moved < READ * READ {
             break;
         }
@@ -230,6 +239,7 @@ fn in_time(study: &LapResponseStudy, candidate: Candidate, is_first: bool) -> Ca
     if measured.iter().all(|run| run.recorded.is_none()) {
         return candidate;
     }
+    let _step = step("samples of decays", Pieces::Unknown);
     let model = candidate.model(study);
     // where reading came to nothing one of the fits before may be nearer
     let read = [&candidate.fit, &candidate.corrected, &candidate.first];
@@ -275,10 +285,14 @@ fn of_another_law(
     let likely = polynomials.into_iter().take(MOST_POLYNOMIALS).chain(alone);
     let of_samples = |candidate: &Candidate| candidate.bic(study.noise.is_stated);
     let best = |candidates: Vec<Candidate>| {
-        let fitted = parallel::map_each(candidates, |one| in_time(study, one, false));
-        let fitted = fitted
-            .into_iter()
-            .filter(|one| one.in_time == InTime::Fitted);
+        let step = step("laws on samples", Pieces::Exactly(candidates.len()));
+        let fitted = parallel::map_each(candidates, |one| {
+            let own = in_time(study, one, false);
+            step.done();
+            own
+        });
+        let fitted = fitted.into_iter();
+        let fitted = fitted.filter(|one| one.in_time == InTime::Fitted);
         fitted.min_by(|one, other| of_samples(one).total_cmp(&of_samples(other)))
     };
     let found = best(likely.collect()).or_else(|| best(beside))?;
@@ -303,6 +317,7 @@ fn refined(study: &LapResponseStudy, candidate: Candidate, runs: &[&SineRun]) ->
     if model.harmonics == 1 || lines.is_empty() || model.terms.slider().is_some() || is_wrong {
         return candidate;
     }
+    let _step = step("harmonics", Pieces::Unknown);
     let backbones = candidate.backbones.clone();
     let backbones: Vec<&BackboneRun> = backbones.iter().collect();
     let data = Data {

@@ -6,6 +6,7 @@
 //! has risen by what an interval of 95 % allows. No place is more deviations off than the root of its χ² says.
 
 use bolted_joint_statistics::NORMAL_975;
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::{DMatrix, DVector};
 
 use super::backbone::BackboneRun;
@@ -67,6 +68,7 @@ pub(super) fn at_kinks(study: &LapResponseStudy, mut chosen: Candidate) -> Candi
         lines: &lines,
         backbones: &backbones,
     };
+    let _step = step("corners of the law", Pieces::Unknown);
     for restart in 0..=RESTARTS {
         let base = chosen.free.as_ref().unwrap_or(&chosen.fit);
         let factor = study.raised_by(base);

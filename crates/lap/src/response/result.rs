@@ -26,6 +26,7 @@ use crate::error::LapError;
 use bolted_joint_identify::Watch;
 use bolted_joint_joint::Provenance;
 use bolted_joint_study::Method;
+use bolted_joint_wanted::{Pieces, step};
 
 /// Share of the linear stiffness or damping that a term's standard deviation may be at the largest amplitude for the term to count as
 /// determined although it may be zero.
@@ -105,6 +106,7 @@ impl LapResponse {
     /// [`LapError`] if the data determine no model, or if a file has vanished meanwhile.
     pub fn of(study: &LapResponseStudy, watch: &dyn Watch) -> Result<Self, LapError> {
         let (chosen, comparison) = choice::choose(study)?;
+        let predicting = step("predictions of the runs", Pieces::Unknown);
         let model = chosen.model(study);
         let raised = chosen.raised;
         let (fit, free) = (chosen.fit, chosen.free);
@@ -213,8 +215,10 @@ impl LapResponse {
             between_runs,
             amplitude_m,
         };
+        drop(predicting);
         // what is left of samples is no measure of what is left of points
         if found.is_far_from_noise(study) && found.in_time != InTime::Fitted {
+            let _step = step("causes of the misfit", Pieces::Unknown);
             let base = found.free.as_ref().unwrap_or(&found.fit);
             found.misfit = odd::misfit(study, &found.model, base);
         }

@@ -3,6 +3,7 @@
 mod slipping;
 
 use bolted_joint_dynamics::{Polynomial, law::Term};
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -50,15 +51,31 @@ pub(super) fn best(
     if starts.is_empty() {
         starts.extend(super::backbone::start(model, data, known));
     }
-    let mut starts: Vec<(usize, Values)> = match model.terms.slider() {
+    let starts: Vec<(usize, Values)> = match model.terms.slider() {
         Some(slider) => with_slider(model, data, slider, &starts),
         None => starts.into_iter().map(|start| (0, start)).collect(),
     };
+    let looked_at = (starts.len() > MOST_STARTS).then(|| {
+        let step = step("first looks", Pieces::Exactly(starts.len()));
+        let glance = |(kind_of_start, start): &(usize, Values)| {
+            let seen = glanced(model, data, noise, start, kind);
+            step.done();
+            let seen = seen.ok()?;
+            seen.chi_squared
+                .is_finite()
+                .then_some((*kind_of_start, seen))
+        };
+        let mut seen: Vec<(usize, Fit)> = starts.iter().filter_map(glance).collect();
+        seen.sort_by(|(_, a), (_, b)| a.chi_squared.total_cmp(&b.chi_squared));
+        seen
+    });
     let follow = |start: Start<'_>| searched(model, data, noise, start, kind);
     let mut fits = Vec::new();
     let mut followed = 0;
+    let step = step("searches", Pieces::AtMost(starts.len()));
     let mut end = |ended: Result<Fit, LapError>, fits: &mut Vec<Fit>| {
         followed += 1;
+        step.done();
         match ended {
             Ok(fit) if fit.values.mass > 0.0 => fits.push(fit),
             Err(error @ LapError::TooFewLines { .. }) => return Err(error),
@@ -66,15 +83,7 @@ pub(super) fn best(
         }
         Ok(())
     };
-    if starts.len() > MOST_STARTS {
-        let glance = |(kind_of_start, start): (usize, Values)| {
-            let seen = glanced(model, data, noise, &start, kind).ok()?;
-            seen.chi_squared
-                .is_finite()
-                .then_some((kind_of_start, seen))
-        };
-        let mut seen: Vec<(usize, Fit)> = starts.drain(..).filter_map(glance).collect();
-        seen.sort_by(|(_, a), (_, b)| a.chi_squared.total_cmp(&b.chi_squared));
+    if let Some(seen) = &looked_at {
         let mut kinds = Vec::new();
         let mut others = Vec::new();
         for (rank, (kind_of_start, seen)) in seen.iter().enumerate() {

@@ -127,6 +127,16 @@ impl TermSet {
         self.slider
     }
 
+    /// About how long the search of a model takes, beside one of springs and dampers alone: what slips is computed loop by loop, and
+    /// Iwan's law has most unknowns and corners. To tell how long the rest takes, and nothing else.
+    pub(super) fn effort(&self) -> usize {
+        match self.slider {
+            None => 1,
+            Some(Slider::Iwan) => 160,
+            Some(_) => 20,
+        }
+    }
+
     /// What is unknown of them.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = ResponseUnknown> + '_ {
         let terms = self.terms.iter().copied().map(ResponseUnknown::Term);

@@ -415,6 +415,6 @@ def _shaped(argument: str, array: NDArray[Any], shape: tuple[int, int, int]) -> 
         return array
     if tuple(length for length in array.shape if length != 1) == squeezed:
         return array.reshape(shape)
-    raise BoltedJointError(
-        f"{argument}: found an array of shape {array.shape}, expected {shape}: lines, responses, references"
-    )
+    wanted = f"{argument}: found an array of shape {array.shape}, expected {shape}: lines, responses, references"
+    named = "; responses and references need a name for each, such as \"11:+Y\"" if array.shape[:1] == shape[:1] else ""
+    raise BoltedJointError(wanted + named)

@@ -1,5 +1,6 @@
 //! Several joints of a chain at once, and whether the functions tell them apart.
 
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 use super::apart::{Apart, apart};
@@ -101,6 +102,7 @@ impl ChainStudy {
             starts,
             rivals,
         } = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
+        let _step = step("the estimate at all lines", Pieces::Unknown);
         let mut best = fit.on(&problem, &level)?;
         if let Level::OfResiduals = self.level {
             for _ in 0..ROUNDS {

@@ -4,6 +4,8 @@
 //! the first one says nothing of the others. So all of the first starts are followed, and what they came to is compared at the same
 //! lines.
 
+use bolted_joint_wanted::{Pieces, Step, step};
+
 use super::Beside;
 use super::search::{EXPLAINED, Given, estimated, let_down};
 use crate::error::SpatialError;
@@ -29,6 +31,8 @@ pub(super) struct Comparison<'p> {
     /// What the searches ended in there.
     ended: Vec<Fit>,
     tried: usize,
+    /// How many are done, for who waits.
+    step: Step,
 }
 
 /// The lowest at the lines of the estimate.
@@ -49,6 +53,7 @@ impl<'p> Comparison<'p> {
             few,
             ended: Vec::new(),
             tried: 0,
+            step: step("searches", Pieces::Unknown),
         }
     }
 
@@ -57,7 +62,9 @@ impl<'p> Comparison<'p> {
         let starts: Vec<Start> = starts.take(COMPARED).collect();
         self.tried += starts.len();
         let ended = over_each(&starts, |(residual, start)| {
-            let_down(&mut self.few.clone(), start.clone(), *residual)
+            let fit = let_down(&mut self.few.clone(), start.clone(), *residual);
+            self.step.done();
+            fit
         });
         self.ended.extend(ended.into_iter().flatten());
         (self.ended).sort_by(|one, other| one.cost.total_cmp(&other.cost));

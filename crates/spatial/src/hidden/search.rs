@@ -1,6 +1,8 @@
 //! The joint, and the errors of the set-up where there are any, beside noise of the substructures: from several starts at a few
 //! lines, then at more.
 
+use bolted_joint_wanted::{Pieces, Step, step};
+
 use super::Beside;
 use super::compare::{Comparison, Start};
 use crate::error::SpatialError;
@@ -186,6 +188,8 @@ struct Searches<'p> {
     is_refuted: bool,
     tried: usize,
     agreeing: usize,
+    /// How many are done, for who waits.
+    step: Step,
 }
 
 impl<'p> Searches<'p> {
@@ -198,6 +202,7 @@ impl<'p> Searches<'p> {
             is_refuted: false,
             tried: 0,
             agreeing: 0,
+            step: step("searches", Pieces::Unknown),
         }
     }
 
@@ -206,7 +211,9 @@ impl<'p> Searches<'p> {
         let by_chance = by_chance(self.squares.numbers(), BY_CHANCE);
         for (residual, start) in starts {
             self.tried += 1;
-            let Ok(fit) = let_down(&mut self.squares, start, residual) else {
+            let fit = let_down(&mut self.squares, start, residual);
+            self.step.done();
+            let Ok(fit) = fit else {
                 continue;
             };
             let lowest = self.best.as_ref().map_or(f64::INFINITY, |best| best.cost);

@@ -31,7 +31,9 @@ impl Searches<'_> {
         let (first, others) = tries.split_at(tries.len().min(1));
         for tries in [first, others] {
             let ended = over_each(tries, |(way, (residual, start))| {
-                self.let_down(*way, *residual, start.clone())
+                let fit = self.let_down(*way, *residual, start.clone());
+                self.step.done();
+                fit
             });
             self.tried += tries.len();
             let ended: Vec<Fit> = ended.into_iter().flatten().collect();

@@ -8,6 +8,8 @@
 mod compare;
 mod down;
 
+use bolted_joint_wanted::{Pieces, Step, step};
+
 use self::compare::compared;
 use self::down::let_down;
 use crate::error::SpatialError;
@@ -139,6 +141,8 @@ struct Searches<'p> {
     compared: Vec<f64>,
     tried: usize,
     agreeing: usize,
+    /// How many are done, for who waits.
+    step: Step,
 }
 
 impl<'p> Searches<'p> {
@@ -170,6 +174,7 @@ impl<'p> Searches<'p> {
             compared: Vec::new(),
             tried: 0,
             agreeing: 0,
+            step: step("searches", Pieces::Unknown),
         })
     }
 
@@ -192,7 +197,9 @@ impl<'p> Searches<'p> {
     fn follow(&mut self, tries: impl Iterator<Item = (Way, Start)>) -> bool {
         for (way, (residual, start)) in tries {
             self.tried += 1;
-            let Some(fit) = self.let_down(way, residual, start) else {
+            let fit = self.let_down(way, residual, start);
+            self.step.done();
+            let Some(fit) = fit else {
                 continue;
             };
             let lowest = self.came_to(&fit);

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::super::super::error::CliError;
 use super::super::super::output::{Outputs, print, warn};
-use super::super::super::progress::Progress;
+use super::super::super::progress::{Progress, watched};
 use super::super::super::table::{Table, number};
 use super::super::IdentifyArguments;
 use super::report_time;
@@ -23,7 +23,7 @@ pub(in super::super) fn run(
         "`compare = false` beside `terms` in the study's [model], which leaves the comparison of models out; rivals are those of method \
          \"frf-decoupling\"",
     )?;
-    let study = LapResponseStudy::of(study)?;
+    let study = watched("reading", || LapResponseStudy::of(study))?;
     let progress = Progress::new("identifying", 0);
     let found = LapResponse::of(&study, &progress)?;
     drop(progress);

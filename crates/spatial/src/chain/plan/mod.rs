@@ -9,6 +9,7 @@ mod reason;
 mod trial;
 mod worth;
 
+use bolted_joint_wanted::{Pieces, step};
 use nalgebra::DVector;
 
 use crate::advice::advice;
@@ -104,6 +105,7 @@ impl ChainStudy {
         };
         let (values, mut warnings) = self.expected()?;
         let chosen = chosen(links, aim)?;
+        let of_test = step("the test as it is", Pieces::Unknown);
         let test = self.test(&self.parts, &values, noise, usize::MAX)?;
         warnings.extend(self.assumed.iter().cloned());
         warnings.extend(self.at_known_joints());
@@ -133,8 +135,12 @@ impl ChainStudy {
             ranking: Vec::new(),
             warnings,
         };
+        drop(of_test);
         let mut left = self.candidates()?;
         let mut parts = self.parts.clone();
+        // each addition leaves one candidate less for the next
+        let counts = (0..additions).map(|taken| left.len().saturating_sub(taken));
+        let of_candidates = step("candidates", Pieces::Exactly(counts.sum()));
         for step in 0..additions {
             let compared = |parts: &[Part]| {
                 let test = self.test(parts, &values, noise, COMPARED_LINES)?;
@@ -144,9 +150,11 @@ impl ChainStudy {
             let mut ranked = Vec::new();
             for (n, candidate) in left.iter().enumerate() {
                 let Some(with) = candidate.added(&parts) else {
+                    of_candidates.done();
                     continue;
                 };
                 let then = compared(&with)?;
+                of_candidates.done();
                 let gain = match chosen.is_empty() {
                     true => then - now,
                     // of a sum of variances, with the other sign

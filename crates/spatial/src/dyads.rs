@@ -4,8 +4,12 @@
 //!
 //! Groups of unknowns θ_pq act as f_oi = Σ x_op θ_pq y_qi, with x and y of their own.
 
+use std::borrow::Cow;
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
+
+use crate::problem::Problem;
 
 /// Which functions there are, rows × columns, and how much each counts.
 #[derive(Clone)]
@@ -17,6 +21,32 @@ pub(crate) struct Grid {
 impl Grid {
     pub(crate) fn new(weights: DMatrix<f64>) -> Self {
         Self { weights }
+    }
+}
+
+/// The grid of the assembly's functions at each line.
+pub(crate) struct Lines<'p> {
+    problem: &'p Problem,
+    deviations: &'p [f64],
+    /// That of all lines, where these are alike.
+    all: Option<Grid>,
+}
+
+impl<'p> Lines<'p> {
+    pub(crate) fn of(problem: &'p Problem, deviations: &'p [f64]) -> Self {
+        let is_even = problem.observed.iter().all(|one| one.uneven.is_empty());
+        Self {
+            problem,
+            deviations,
+            all: is_even.then(|| Grid::new(problem.weights(deviations))),
+        }
+    }
+
+    pub(crate) fn at(&self, line: usize) -> Cow<'_, Grid> {
+        match &self.all {
+            Some(all) => Cow::Borrowed(all),
+            None => Cow::Owned(Grid::new(self.problem.weights_at(self.deviations, line))),
+        }
     }
 }
 

@@ -21,6 +21,7 @@ use crate::richer::{Richer, richer};
 use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, searched};
 use crate::study::SpatialStudy;
 use crate::together::{LINES_MAX, together};
+use crate::uneven;
 
 /// Rounds in which the level of the noise follows the residuals, and the budget what it does not allow for.
 const ROUNDS: usize = 5;
@@ -31,6 +32,10 @@ const NOISE: f64 = 0.01;
 /// Lines of the estimate of joint and set-up together, and twice as many while it does not hold at the others: what few lines leave
 /// open of the set-up moves resonances.
 const MANY: usize = 300;
+
+/// Rounds in which noise follows the values of the functions that were found, and parts of it that are as good as each other.
+const UNEVEN: usize = 3;
+const ALIKE: f64 = 0.003;
 
 /// Levels that a round changes by less than this part are as they are.
 const SETTLED: f64 = 1e-5;
@@ -73,8 +78,17 @@ pub(crate) struct Found {
     pub(crate) rivals: usize,
     /// That the joint is not what its model says.
     pub(crate) richer: Option<Richer>,
+    /// Part of the noise of the assembly that goes with the values of its functions.
+    pub(crate) of_values: f64,
     /// What further numbers would explain; of none where nothing is known of that.
     pub(crate) further: Vec<(Further, Score)>,
+}
+
+/// An estimate, the lines of it, and the level of each function's noise.
+struct AtMoreLines {
+    best: Fit,
+    estimated: Problem,
+    level: Deviations,
 }
 
 /// Where an estimate goes on from, and the searches that led there.
@@ -191,35 +205,37 @@ impl SpatialStudy {
 
     /// Where the substructures' functions are exact.
     fn beside_exact(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
-        let problem = &self.problem;
-        let errors = problem.error_count();
-        let mut level = self.first_level(rms);
-        let is_stated = matches!(self.level, Level::Relative(_));
         let Begun(Searched {
-            fit: mut best,
+            fit,
             starts,
             rivals,
         }) = begun;
-        let mut estimated = problem.clone();
-        if errors > 0 {
-            // where nothing was found, there is nothing to be told better
-            estimated = problem.thinned(if best.has_converged { MANY } else { LINES_MAX });
-            if best.has_converged {
-                best = best.on(&estimated, &level)?;
-            }
-        }
-        loop {
-            if !is_stated {
-                best = self.with_its_level(best, &estimated, rms, &mut level)?;
-            }
-            let used = estimated.frequency_hz.len();
-            let is_all = used >= problem.frequency_hz.len();
-            if is_all || !best.has_converged || holds(problem, &estimated, &best, &level)? {
+        let mut problem = Cow::Borrowed(&self.problem);
+        let mut end = self.at_more_lines(&problem, rms, fit)?;
+        let mut of_values = 0.0;
+        for _ in 0..UNEVEN {
+            let told = match end.best.has_converged {
+                true => uneven::of(&problem, &end.best.unknowns)?,
+                false => None,
+            };
+            let Some(told) = told.filter(|told| (told - of_values).abs() > ALIKE) else {
                 break;
-            }
-            estimated = problem.thinned(2 * used);
-            best = best.on(&estimated, &level)?;
+            };
+            of_values = told;
+            problem = Cow::Owned(problem.with_uneven_noise(told, &end.best.unknowns)?);
+            let again = match problem.error_count() {
+                0 => end.best.on(&problem, &end.level)?,
+                _ => end.best,
+            };
+            end = self.at_more_lines(&problem, rms, again)?;
         }
+        let problem = &*problem;
+        let errors = problem.error_count();
+        let AtMoreLines {
+            best,
+            estimated,
+            level,
+        } = end;
         // all lines, with the errors of the set-up as they were found
         let exact = problem.displaced(&best.unknowns)?;
         let start = joint_of(problem, &best.unknowns);
@@ -240,6 +256,7 @@ impl SpatialStudy {
         Ok(Found {
             richer,
             further,
+            of_values,
             joint: Refined {
                 covariance: covariance(&normal.information)
                     .ok_or_else(|| undetermined(best.has_converged, starts))?,
@@ -263,31 +280,40 @@ impl SpatialStudy {
         })
     }
 
-    /// The estimate and a level of each function's noise by what it leaves, in rounds.
-    fn with_its_level(
+    /// The estimate at as many lines as it takes, from one at fewer.
+    fn at_more_lines(
         &self,
-        mut best: Fit,
-        estimated: &Problem,
+        problem: &Problem,
         rms: &Deviations,
-        level: &mut Deviations,
-    ) -> Result<Fit, SpatialError> {
-        if self.problem.error_count() > 0 && !best.has_converged {
-            *level = of_residuals(&self.problem, &best.unknowns, rms)?;
-            return Ok(best);
-        }
-        for _ in 0..ROUNDS {
-            let next = of_residuals(&self.problem, &best.unknowns, rms)?;
-            let pairs = std::iter::zip(&next, &*level);
-            let is_settled = pairs
-                .map(|(new, old)| (new / old - 1.0).abs())
-                .all(|own| own < SETTLED);
-            *level = next;
-            best = best.on(estimated, level)?;
-            if is_settled {
-                break;
+        mut best: Fit,
+    ) -> Result<AtMoreLines, SpatialError> {
+        let mut level = self.first_level(rms);
+        let is_stated = matches!(self.level, Level::Relative(_));
+        let mut estimated = problem.clone();
+        if problem.error_count() > 0 {
+            // where nothing was found, there is nothing to be told better
+            estimated = problem.thinned(if best.has_converged { MANY } else { LINES_MAX });
+            if best.has_converged {
+                best = best.on(&estimated, &level)?;
             }
         }
-        Ok(best)
+        loop {
+            if !is_stated {
+                best = with_its_level(problem, best, &estimated, rms, &mut level)?;
+            }
+            let used = estimated.frequency_hz.len();
+            let is_all = used >= problem.frequency_hz.len();
+            if is_all || !best.has_converged || holds(problem, &estimated, &best, &level)? {
+                break;
+            }
+            estimated = problem.thinned(2 * used);
+            best = best.on(&estimated, &level)?;
+        }
+        Ok(AtMoreLines {
+            best,
+            estimated,
+            level,
+        })
     }
 
     /// Where the substructures' functions have noise.
@@ -362,8 +388,36 @@ impl SpatialStudy {
             rivals,
             richer,
             further: Vec::new(),
+            of_values: 0.0,
         })
     }
+}
+
+/// The estimate and a level of each function's noise by what it leaves, in rounds.
+fn with_its_level(
+    problem: &Problem,
+    mut best: Fit,
+    estimated: &Problem,
+    rms: &Deviations,
+    level: &mut Deviations,
+) -> Result<Fit, SpatialError> {
+    if problem.error_count() > 0 && !best.has_converged {
+        *level = of_residuals(problem, &best.unknowns, rms)?;
+        return Ok(best);
+    }
+    for _ in 0..ROUNDS {
+        let next = of_residuals(problem, &best.unknowns, rms)?;
+        let pairs = std::iter::zip(&next, &*level);
+        let is_settled = pairs
+            .map(|(new, old)| (new / old - 1.0).abs())
+            .all(|own| own < SETTLED);
+        *level = next;
+        best = best.on(estimated, level)?;
+        if is_settled {
+            break;
+        }
+    }
+    Ok(best)
 }
 
 /// Whether what was found at some lines leaves no more at all of them, but for chance.

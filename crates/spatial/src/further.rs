@@ -7,7 +7,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
-use crate::dyads::{Grid, descent, product, squares};
+use crate::dyads::{Lines, descent, product, squares};
 use crate::error::SpatialError;
 use crate::normal::{Deviations, Normal, residuals};
 use crate::parallel::over_lines;
@@ -87,7 +87,7 @@ pub(crate) fn scores(
     let thin = problem.thinned(LINES_MAX);
     let assembled = Assembled::new(&thin, unknowns)?;
     let own = thin.count();
-    let grid = Grid::new(thin.weights(level));
+    let grids = Lines::of(&thin, level);
     let sought = thin.only()?;
     let [stiffness, _] = sought.matrices(unknowns.0.as_slice())?;
     let stiffness = DMatrix::from_fn(MOTIONS, MOTIONS, |i, j| Complex64::from(stiffness[(i, j)]));
@@ -97,12 +97,13 @@ pub(crate) fn scores(
             let found = assembled.line(line)?;
             let groups = assembled.dyads(line, &found);
             let errors = residuals(&thin, line, &found);
+            let grid = &*grids.at(line);
             for (further, sums) in Further::ALL.into_iter().zip(&mut sums) {
                 let at = (line, &found);
                 let by = further.derivatives(&assembled, &stiffness, at, sought.motions());
-                sums.information += 2.0 * squares(&grid, &by);
-                sums.descent += 2.0 * product(&grid, &by, &errors);
-                let slopes = descent(&grid, &groups, &by);
+                sums.information += 2.0 * squares(grid, &by);
+                sums.descent += 2.0 * product(grid, &by, &errors);
+                let slopes = descent(grid, &groups, &by);
                 sums.with_others
                     .add_line(thin.omega(line), MOTIONS * MOTIONS, &slopes);
             }

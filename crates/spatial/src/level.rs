@@ -6,7 +6,7 @@ use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::normal::Deviations;
 use crate::parallel::over_lines;
-use crate::problem::{Problem, Unknowns};
+use crate::problem::{Observed, Problem, Unknowns};
 
 /// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
 const LEAST_LEVEL: f64 = 1e-12;
@@ -34,7 +34,7 @@ pub(crate) fn of_residuals(
     unknowns: &Unknowns,
     rms: &Deviations,
 ) -> Result<Deviations, SpatialError> {
-    let squares = squares(problem, unknowns)?;
+    let squares = squares_by(problem, unknowns, Observed::uneven)?;
     // each function's share of the unknowns is spent
     let lines = problem.frequency_hz.len() as f64;
     let spent = problem.joint_count() as f64 / (2 * problem.observed.len()) as f64;
@@ -54,6 +54,15 @@ pub(crate) fn squares(
     problem: &Problem,
     unknowns: &Unknowns,
 ) -> Result<Vec<[f64; 2]>, SpatialError> {
+    squares_by(problem, unknowns, |_, _| 1.0)
+}
+
+/// The same with residuals that are divided by so much.
+fn squares_by(
+    problem: &Problem,
+    unknowns: &Unknowns,
+    by: impl Fn(&Observed, usize) -> f64 + Sync,
+) -> Result<Vec<[f64; 2]>, SpatialError> {
     let assembled = Assembled::new(problem, unknowns)?;
     let count = problem.observed.len();
     let parts = over_lines(problem.frequency_hz.len(), |lines| {
@@ -61,7 +70,7 @@ pub(crate) fn squares(
         for line in lines {
             let functions = assembled.line(line)?.functions;
             for ((sum, one), function) in sums.iter_mut().zip(&problem.observed).zip(functions) {
-                sum[0] += (one.values[line] - function).norm_sqr();
+                sum[0] += ((one.values[line] - function) / by(one, line)).norm_sqr();
                 sum[1] += function.norm_sqr();
             }
         }

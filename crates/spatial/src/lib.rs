@@ -62,6 +62,7 @@ mod sums;
 mod tables;
 mod together;
 mod transformations;
+mod uneven;
 mod valley;
 
 pub use chain::{

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::assembled::{Assembled, Line};
-use crate::dyads::{Grid, add_below, descent, side_by_side, squares};
+use crate::dyads::{Lines, add_below, descent, side_by_side, squares};
 use crate::error::SpatialError;
 use crate::parallel::over_lines;
 use crate::patterns::Patterns;
@@ -23,7 +23,7 @@ pub(crate) struct Normal {
     pub(crate) cost: f64,
 }
 
-/// Deviations of the observed functions: E|ε|² = σ².
+/// Deviations of the observed functions over all lines: E|ε|² = σ².
 pub(crate) type Deviations = Vec<f64>;
 
 /// 2 Σ |e|²/σ² and the priors'.
@@ -39,6 +39,7 @@ pub(crate) fn cost(
             let found = assembled.line(line)?;
             let all = problem.observed.iter().zip(found.functions);
             for ((one, function), deviation) in all.zip(deviations) {
+                let deviation = deviation * one.uneven(line);
                 sum += 2.0 * (one.values[line] - function).norm_sqr() / (deviation * deviation);
             }
         }
@@ -89,7 +90,7 @@ pub(crate) fn bend(
         Assembled::new(problem, &behind)?,
         Assembled::new(problem, &ahead)?,
     ];
-    let grid = Grid::new(problem.weights(deviations));
+    let grids = Lines::of(problem, deviations);
     let patterns = Patterns::of(problem, &here)?;
     let parts = over_lines(problem.frequency_hz.len(), |lines| {
         let mut slopes = Slopes::default();
@@ -106,7 +107,7 @@ pub(crate) fn bend(
             slopes.add_line(
                 problem.omega(line),
                 36 * problem.links.sought().len(),
-                &descent(&grid, &groups, &bent),
+                &descent(&grids.at(line), &groups, &bent),
             );
         }
         Ok::<Slopes, SpatialError>(slopes)
@@ -123,10 +124,10 @@ impl Normal {
         deviations: &Deviations,
     ) -> Result<Self, SpatialError> {
         let assembled = Assembled::new(problem, unknowns)?;
-        let grid = Grid::new(problem.weights(deviations));
+        let grids = Lines::of(problem, deviations);
         let patterns = Patterns::of(problem, &assembled)?;
         let parts = over_lines(problem.frequency_hz.len(), |lines| {
-            of_lines(problem, &assembled, &grid, lines)
+            of_lines(problem, &assembled, &grids, lines)
         })?;
         let mut parts = parts.into_iter();
         let mut sums = parts.next().unwrap_or_default();
@@ -155,7 +156,7 @@ impl Normal {
 fn of_lines(
     problem: &Problem,
     assembled: &Assembled<'_>,
-    grid: &Grid,
+    grids: &Lines<'_>,
     lines: Range<usize>,
 ) -> Result<Sums, SpatialError> {
     let mut sums = Sums::default();
@@ -165,6 +166,7 @@ fn of_lines(
         let found = assembled.line(line)?;
         let errors = residuals(problem, line, &found);
         let groups = assembled.dyads(line, &found);
+        let grid = &*grids.at(line);
         let (count, placed) = side_by_side(&groups);
         below.resize_mut(count, count, Complex64::ZERO);
         below.fill(Complex64::ZERO);

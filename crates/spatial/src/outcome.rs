@@ -20,6 +20,7 @@ use crate::richer::Richer;
 use crate::shifted;
 use crate::spread::Spread;
 use crate::study::SpatialStudy;
+use crate::uneven;
 
 /// Residual in parts of the functions up to which single channels are told from the others.
 pub(crate) const LARGEST_RESIDUAL: f64 = 0.15;
@@ -48,6 +49,7 @@ impl SpatialStudy {
             rivals,
             richer,
             further,
+            of_values,
         } = found;
         let spread = Spread::of(estimated, information, alone.covariance.clone())
             .ok_or(SpatialError::NotDetermined)?;
@@ -121,6 +123,7 @@ impl SpatialStudy {
                 None => {}
             }
         }
+        result.warnings.extend(uneven::told(*of_values));
         let of_budget = contradicted::warnings(problem, &result.errors);
         result.warnings.extend(of_budget);
         result.warnings.extend(richer.iter().map(Richer::warning));

@@ -65,7 +65,7 @@ impl Shown {
         }
         let level = match level {
             Level::Relative(_) => level,
-            Level::OfResiduals => Level::Relative(of_assembly(problem)?),
+            Level::OfResiduals => Level::Relative(of_assembly(problem)?.typical),
         };
         let named = std::iter::zip(["a", "b"], &sides).filter_map(|(name, shown)| {
             let (level, _) = shown.as_ref()?;
@@ -114,9 +114,8 @@ fn of_side(side: &Side, frequency_hz: &[f64]) -> Option<(ShownLevel, PartNoise)>
     Some((shown, noise))
 }
 
-/// Of the assembly, in parts of each function's r.m.s.; more than it has where lines are too far from each other.
-fn of_assembly(problem: &Problem) -> Option<f64> {
+/// Of the assembly; more than it has where lines are too far from each other.
+pub(crate) fn of_assembly(problem: &Problem) -> Option<ShownLevel> {
     let functions = problem.observed.iter().map(|one| one.values.clone());
-    let shown = ShownLevel::of(&problem.frequency_hz, &functions.collect::<Vec<_>>())?;
-    Some(shown.typical)
+    ShownLevel::of(&problem.frequency_hz, &functions.collect::<Vec<_>>())
 }

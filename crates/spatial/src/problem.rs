@@ -29,6 +29,24 @@ pub(crate) struct Observed {
     pub(crate) at: [usize; 2],
     /// Receptance at each line.
     pub(crate) values: Vec<Complex64>,
+    /// Deviation of its noise at each line over that of all; empty where all lines have the same.
+    pub(crate) uneven: Vec<f64>,
+}
+
+impl Observed {
+    /// One that was not measured yet, or whose lines have noise that is alike.
+    pub(crate) fn new(at: [usize; 2], values: Vec<Complex64>) -> Self {
+        Self {
+            at,
+            values,
+            uneven: Vec::new(),
+        }
+    }
+
+    /// Deviation of its noise at a line over that of all.
+    pub(crate) fn uneven(&self, line: usize) -> f64 {
+        self.uneven.get(line).copied().unwrap_or(1.0)
+    }
 }
 
 /// Substructures on two sides, their assembly, the joints.
@@ -83,6 +101,10 @@ impl Problem {
         let observed = |one: &Observed| Observed {
             at: one.at,
             values: kept.iter().map(|&line| one.values[line]).collect(),
+            uneven: match one.uneven.is_empty() {
+                true => Vec::new(),
+                false => kept.iter().map(|&line| one.uneven[line]).collect(),
+            },
         };
         Self {
             sides: self.sides.each_ref().map(side),
@@ -273,15 +295,24 @@ impl Problem {
         [a.responses.len(), a.references.len()]
     }
 
-    /// 1/σ² of the observed functions, rows × columns of the assembly; 0 for what was not measured.
+    /// 1/σ² of the observed functions over all lines, rows × columns of the assembly; 0 for what was not measured.
     pub(crate) fn weights(&self, deviations: &[f64]) -> DMatrix<f64> {
+        self.weights_by(deviations, |_| 1.0)
+    }
+
+    /// The same at one line.
+    pub(crate) fn weights_at(&self, deviations: &[f64], line: usize) -> DMatrix<f64> {
+        self.weights_by(deviations, |one| one.uneven(line))
+    }
+
+    fn weights_by(&self, deviations: &[f64], uneven: impl Fn(&Observed) -> f64) -> DMatrix<f64> {
         let [a, b] = &self.sides;
         let mut weights = DMatrix::zeros(
             a.responses.len() + b.responses.len(),
             a.references.len() + b.references.len(),
         );
         for (one, deviation) in self.observed.iter().zip(deviations) {
-            weights[(one.at[0], one.at[1])] += 1.0 / (deviation * deviation);
+            weights[(one.at[0], one.at[1])] += (deviation * uneven(one)).powi(-2);
         }
         weights
     }

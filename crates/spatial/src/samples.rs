@@ -61,10 +61,7 @@ fn sample(sides: [Side; 2], lengths_m: &[f64], [rows, columns]: [&[usize]; 2]) -
     let pairs = rows
         .iter()
         .flat_map(|&row| columns.iter().map(move |&column| [row, column]));
-    let observed = pairs.map(|at| Observed {
-        at,
-        values: vec![Complex64::from(0.0); 2],
-    });
+    let observed = pairs.map(|at| Observed::new(at, vec![Complex64::from(0.0); 2]));
     let link = |(n, &length_m): (usize, &f64)| Link {
         key: format!("joint[{n}]"),
         length_m,

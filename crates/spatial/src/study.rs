@@ -124,6 +124,7 @@ impl SpatialStudy {
 
     /// With noise that the functions of substructures show, where these `may_show` it since the study states none.
     fn with_shown_noise(mut self, may_show: [bool; 2]) -> Self {
+        let is_stated = matches!(self.level, Level::Relative(_));
         if let Some(shown) = Shown::of(&self.problem, self.level, may_show) {
             self.level = shown.level;
             for (own, shown) in self.noise.iter_mut().zip(shown.noise) {
@@ -132,6 +133,12 @@ impl SpatialStudy {
                 }
             }
             self.assumed.push(shown.note);
+        }
+        if self.has_noise()
+            && let Some((uneven, note)) = self.problem.with_shown_noise(is_stated)
+        {
+            self.problem = uneven;
+            self.assumed.push(note);
         }
         self
     }
@@ -337,10 +344,7 @@ impl Reader<'_> {
                 // the transposed function is another datum only where it was measured
                 let Some(Ok(function)) = found else { continue };
                 if !function.is_reciprocal() {
-                    observed.push(Observed {
-                        at: [row, column],
-                        values: function.values().to_vec(),
-                    });
+                    observed.push(Observed::new([row, column], function.values().to_vec()));
                 }
             }
         }

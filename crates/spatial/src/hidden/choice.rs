@@ -28,7 +28,8 @@ impl Beside<'_> {
                     let own = [model.of_hidden_alone(n)];
                     let root = Cholesky::new(information(&self.grids.own[n][line], &own))
                         .ok_or(SpatialError::NotDetermined)?;
-                    let sums = information(&self.grids.assembly, &[model.of_hidden(n, &computed)]);
+                    let sums =
+                        information(&self.grids.assembly[line], &[model.of_hidden(n, &computed)]);
                     // Σ w var = tr(Λ Uᴴ W U)
                     moved += root.solve(&sums).trace().re;
                 }
@@ -37,7 +38,7 @@ impl Beside<'_> {
                 for one in &self.problem.observed {
                     values[(one.at[0], one.at[1])] = one.values[line];
                 }
-                Ok((moved / squares(&self.grids.assembly, &values)).sqrt())
+                Ok((moved / squares(&self.grids.assembly[line], &values)).sqrt())
             };
             lines.map(of).collect::<Result<Vec<f64>, SpatialError>>()
         })?;

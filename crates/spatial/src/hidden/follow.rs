@@ -111,7 +111,7 @@ impl Beside<'_> {
         let [a, _] = self.hidden_counts();
         let places = [0, a];
         let assembly = Compared {
-            grid: &self.grids.assembly,
+            grid: &self.grids.assembly[line],
             errors: self.errors(line, computed),
             groups: [0, 1]
                 .map(|n| (places[n], model.of_hidden(n, computed)))

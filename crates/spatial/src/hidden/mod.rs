@@ -44,7 +44,8 @@ pub(crate) struct Beside<'p> {
     problem: &'p Problem,
     nodes: Problem,
     /// 1/σ² of the assembly's functions, and of those of the substructures at each line.
-    weights: DMatrix<f64>,
+    /// Of the assembly, at each line.
+    weights: Vec<DMatrix<f64>>,
     own_weights: [Vec<DMatrix<f64>>; 2],
     grids: Grids,
     /// As it follows at the unknowns that were accepted last, and that were tried last.
@@ -91,7 +92,8 @@ impl<'p> Beside<'p> {
         }
         let [a, b] = reduced;
         let hidden: Vec<Hidden> = a.into_iter().zip(b).map(<[_; 2]>::from).collect();
-        let weights = problem.weights(level);
+        let lines = 0..problem.frequency_hz.len();
+        let weights: Vec<_> = lines.map(|line| problem.weights_at(level, line)).collect();
         Ok(Self {
             nodes: between_nodes(problem, &hidden),
             grids: Grids::of(&weights, &own_weights, 1.0),
@@ -111,11 +113,12 @@ impl<'p> Beside<'p> {
         }
         let own_weights = self.own_weights.each_ref().map(|own| these(own, lines));
         let hidden = these(&self.hidden, lines);
+        let weights = these(&self.weights, lines);
         Beside {
             problem,
             nodes: between_nodes(problem, &hidden),
-            grids: Grids::of(&self.weights, &own_weights, 1.0),
-            weights: self.weights.clone(),
+            grids: Grids::of(&weights, &own_weights, 1.0),
+            weights,
             own_weights,
             hidden,
             measured: these(&self.measured, lines),
@@ -211,7 +214,7 @@ impl<'p> Beside<'p> {
     }
 
     fn squares(&self, line: usize, computed: &Computed) -> f64 {
-        squares(&self.grids.assembly, &self.errors(line, computed))
+        squares(&self.grids.assembly[line], &self.errors(line, computed))
             + self.own_squares(line, computed)
     }
 
@@ -278,7 +281,7 @@ impl<'p> Beside<'p> {
         alone.insert(
             0,
             Compared {
-                grid: &self.grids.assembly,
+                grid: &self.grids.assembly[line],
                 errors: self.errors(line, computed),
                 groups,
             },

@@ -53,12 +53,7 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
     Problem {
         sides,
         frequency_hz: problem.frequency_hz.clone(),
-        observed: places
-            .map(|at| Observed {
-                at,
-                values: Vec::new(),
-            })
-            .collect(),
+        observed: places.map(|at| Observed::new(at, Vec::new())).collect(),
         links: problem.links.clone(),
         tolerances: None,
         wider: Vec::new(),

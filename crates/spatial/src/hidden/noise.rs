@@ -16,19 +16,18 @@ const FAINT: f64 = 1e-4;
 /// Of the assembly's functions, and of those of the substructures at each line.
 #[derive(Clone)]
 pub(super) struct Grids {
-    pub(super) assembly: Grid,
+    pub(super) assembly: Vec<Grid>,
     pub(super) own: [Vec<Grid>; 2],
 }
 
 impl Grids {
     /// As if all noise were so many times as large.
-    pub(super) fn of(weights: &DMatrix<f64>, own: &[Vec<DMatrix<f64>>; 2], factor: f64) -> Self {
+    pub(super) fn of(weights: &[DMatrix<f64>], own: &[Vec<DMatrix<f64>>; 2], factor: f64) -> Self {
         let by = factor.powi(-2);
+        let grids = |own: &[DMatrix<f64>]| own.iter().map(|own| Grid::new(own * by)).collect();
         Self {
-            assembly: Grid::new(weights * by),
-            own: own
-                .each_ref()
-                .map(|own| own.iter().map(|own| Grid::new(own * by)).collect()),
+            assembly: grids(weights),
+            own: own.each_ref().map(|own| grids(own)),
         }
     }
 }

@@ -295,12 +295,7 @@ fn observed(
     let pairs = rows
         .iter()
         .flat_map(|&row| columns.iter().map(move |&column| [row, column]));
-    Ok(pairs
-        .map(|at| Observed {
-            at,
-            values: Vec::new(),
-        })
-        .collect())
+    Ok(pairs.map(|at| Observed::new(at, Vec::new())).collect())
 }
 
 /// The unknowns that are most correlated with one.

@@ -12,33 +12,22 @@ use crate::further::{Further, Score, scores};
 use crate::hidden::{self, Beside, searched_beside};
 use crate::identification::SpatialIdentification;
 use crate::lack;
-use crate::level::{of_residuals, relative_rms, sizes};
+use crate::level::{relative_rms, sizes};
 use crate::misfits::Misfit;
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
 use crate::problem::{Level, Problem, Unknowns};
 use crate::richer::{Richer, richer};
-use crate::search::{BY_CHANCE, Extent, SEARCHED, Searched, searched};
+use crate::search::{Extent, SEARCHED, Searched, searched};
+use crate::settled::Settled;
 use crate::study::SpatialStudy;
-use crate::together::{LINES_MAX, together};
-use crate::uneven;
+use crate::together::together;
 
 /// Rounds in which the level of the noise follows the residuals, and the budget what it does not allow for.
 const ROUNDS: usize = 5;
 
 /// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
 const NOISE: f64 = 0.01;
-
-/// Lines of the estimate of joint and set-up together, and twice as many while it does not hold at the others: what few lines leave
-/// open of the set-up moves resonances.
-const MANY: usize = 300;
-
-/// Rounds in which noise follows the values of the functions that were found, and parts of it that are as good as each other.
-const UNEVEN: usize = 3;
-const ALIKE: f64 = 0.003;
-
-/// Levels that a round changes by less than this part are as they are.
-const SETTLED: f64 = 1e-5;
 
 /// Lines of the joint before all take part, where the substructures have noise.
 const FEW: usize = 200;
@@ -84,13 +73,6 @@ pub(crate) struct Found {
     pub(crate) further: Vec<(Further, Score)>,
 }
 
-/// An estimate, the lines of it, and the level of each function's noise.
-struct AtMoreLines {
-    best: Fit,
-    estimated: Problem,
-    level: Deviations,
-}
-
 /// Where an estimate goes on from, and the searches that led there.
 pub(crate) struct Begun(Searched);
 
@@ -122,6 +104,17 @@ impl SpatialStudy {
     /// # Errors
     /// [`SpatialError`] where the functions do not determine one.
     pub fn identify(&self, misfits: &[Misfit]) -> Result<SpatialIdentification, SpatialError> {
+        match &self.uneven {
+            Some(uneven) => self.identify_with(uneven, misfits),
+            None => self.identify_alone(misfits),
+        }
+    }
+
+    /// With the noise that the problem has.
+    pub(crate) fn identify_alone(
+        &self,
+        misfits: &[Misfit],
+    ) -> Result<SpatialIdentification, SpatialError> {
         let problem = &self.problem;
         let (functions, lines) = (problem.observed.len(), problem.frequency_hz.len());
         if problem.numbers() <= problem.joint_count() {
@@ -210,32 +203,17 @@ impl SpatialStudy {
             starts,
             rivals,
         }) = begun;
-        let mut problem = Cow::Borrowed(&self.problem);
-        let mut end = self.at_more_lines(&problem, rms, fit)?;
-        let mut of_values = 0.0;
-        for _ in 0..UNEVEN {
-            let told = match end.best.has_converged {
-                true => uneven::of(&problem, &end.best.unknowns)?,
-                false => None,
-            };
-            let Some(told) = told.filter(|told| (told - of_values).abs() > ALIKE) else {
-                break;
-            };
-            of_values = told;
-            problem = Cow::Owned(problem.with_uneven_noise(told, &end.best.unknowns)?);
-            let again = match problem.error_count() {
-                0 => end.best.on(&problem, &end.level)?,
-                _ => end.best,
-            };
-            end = self.at_more_lines(&problem, rms, again)?;
-        }
-        let problem = &*problem;
-        let errors = problem.error_count();
-        let AtMoreLines {
+        let is_stated = matches!(self.level, Level::Relative(_));
+        let first = self.first_level(rms);
+        let Settled {
+            problem,
             best,
             estimated,
             level,
-        } = end;
+            of_values,
+        } = Settled::of(&self.problem, fit, (&first, is_stated), rms)?;
+        let problem = &*problem;
+        let errors = problem.error_count();
         // all lines, with the errors of the set-up as they were found
         let exact = problem.displaced(&best.unknowns)?;
         let start = joint_of(problem, &best.unknowns);
@@ -277,42 +255,6 @@ impl SpatialStudy {
             shown: exact,
             starts,
             rivals,
-        })
-    }
-
-    /// The estimate at as many lines as it takes, from one at fewer.
-    fn at_more_lines(
-        &self,
-        problem: &Problem,
-        rms: &Deviations,
-        mut best: Fit,
-    ) -> Result<AtMoreLines, SpatialError> {
-        let mut level = self.first_level(rms);
-        let is_stated = matches!(self.level, Level::Relative(_));
-        let mut estimated = problem.clone();
-        if problem.error_count() > 0 {
-            // where nothing was found, there is nothing to be told better
-            estimated = problem.thinned(if best.has_converged { MANY } else { LINES_MAX });
-            if best.has_converged {
-                best = best.on(&estimated, &level)?;
-            }
-        }
-        loop {
-            if !is_stated {
-                best = with_its_level(problem, best, &estimated, rms, &mut level)?;
-            }
-            let used = estimated.frequency_hz.len();
-            let is_all = used >= problem.frequency_hz.len();
-            if is_all || !best.has_converged || holds(problem, &estimated, &best, &level)? {
-                break;
-            }
-            estimated = problem.thinned(2 * used);
-            best = best.on(&estimated, &level)?;
-        }
-        Ok(AtMoreLines {
-            best,
-            estimated,
-            level,
         })
     }
 
@@ -391,47 +333,6 @@ impl SpatialStudy {
             of_values: 0.0,
         })
     }
-}
-
-/// The estimate and a level of each function's noise by what it leaves, in rounds.
-fn with_its_level(
-    problem: &Problem,
-    mut best: Fit,
-    estimated: &Problem,
-    rms: &Deviations,
-    level: &mut Deviations,
-) -> Result<Fit, SpatialError> {
-    if problem.error_count() > 0 && !best.has_converged {
-        *level = of_residuals(problem, &best.unknowns, rms)?;
-        return Ok(best);
-    }
-    for _ in 0..ROUNDS {
-        let next = of_residuals(problem, &best.unknowns, rms)?;
-        let pairs = std::iter::zip(&next, &*level);
-        let is_settled = pairs
-            .map(|(new, old)| (new / old - 1.0).abs())
-            .all(|own| own < SETTLED);
-        *level = next;
-        best = best.on(estimated, level)?;
-        if is_settled {
-            break;
-        }
-    }
-    Ok(best)
-}
-
-/// Whether what was found at some lines leaves no more at all of them, but for chance.
-fn holds(
-    problem: &Problem,
-    estimated: &Problem,
-    best: &Fit,
-    level: &Deviations,
-) -> Result<bool, SpatialError> {
-    let numbers = [estimated, problem].map(|own| own.numbers() as f64);
-    let at_all = cost(problem, &best.unknowns, level)? / numbers[1];
-    // χ² of ν numbers is ν ± √(2 ν)
-    let chance = BY_CHANCE * (2.0 / numbers[0]).sqrt();
-    Ok(at_all <= (1.0 + chance) * best.cost / numbers[0])
 }
 
 /// A part of each r.m.s.

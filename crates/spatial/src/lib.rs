@@ -52,6 +52,7 @@ mod rivals;
 #[cfg(test)]
 mod samples;
 mod search;
+mod settled;
 mod shifted;
 mod side;
 mod spread;

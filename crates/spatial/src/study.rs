@@ -18,6 +18,7 @@ use crate::part_noise::{PartNoise, Shown};
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
 use crate::tables::{JointTable, ModelName, NoiseTable, SensorTable, StudyFile};
+use crate::uneven::Uneven;
 
 /// How far from an interface a sensor, an impact or a bolt of it is at most, m.
 pub(crate) const FARTHEST_M: f64 = 3.0;
@@ -47,6 +48,8 @@ pub struct SpatialStudy {
     /// What had to be assumed of the files.
     pub(crate) assumed: Vec<String>,
     pub(crate) problem: Problem,
+    /// The same with noise that goes with the values of the assembly's functions, where they seem to show that.
+    pub(crate) uneven: Option<Uneven>,
     /// What the interfaces have.
     pub(crate) motions: Motions,
 }
@@ -104,6 +107,7 @@ impl SpatialStudy {
             noise: chain.noise,
             zero_functions,
             assumed,
+            uneven: None,
             problem: Problem {
                 tolerances: budget.tolerances,
                 wider: Vec::new(),
@@ -134,11 +138,8 @@ impl SpatialStudy {
             }
             self.assumed.push(shown.note);
         }
-        if self.has_noise()
-            && let Some((uneven, note)) = self.problem.with_shown_noise(is_stated)
-        {
-            self.problem = uneven;
-            self.assumed.push(note);
+        if self.has_noise() {
+            self.uneven = Uneven::shown(&self.problem, is_stated);
         }
         self
     }

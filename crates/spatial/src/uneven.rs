@@ -12,12 +12,15 @@ use num_complex::Complex64;
 
 use crate::assembled::Assembled;
 use crate::error::SpatialError;
+use crate::identification::SpatialIdentification;
 use crate::lack;
 use crate::level::{root_mean_square, size};
+use crate::misfits::Misfit;
 use crate::odd::median;
 use crate::parallel::over_lines;
 use crate::part_noise::{of_assembly, percent};
 use crate::problem::{Problem, Unknowns};
+use crate::study::SpatialStudy;
 
 /// By how much −2 ln L has to fall with w for one that is told. Neighbours share residuals, so that it tells up to three times as much
 /// as it seems.
@@ -25,6 +28,9 @@ const CLEAR: f64 = 40.0;
 /// Noise in parts of each value above which it is not told by them, and the floor in parts of the median, in those, that is minor.
 const LARGE: f64 = 0.1;
 const MINOR: f64 = 0.3;
+/// χ² over its degrees of freedom of noise that explains what is left: with noise that is as large where values are small it would be
+/// a hundred times that.
+const EXPLAINED: f64 = 1.5;
 /// Differences that are looked at, at most.
 const MOST: usize = 100_000;
 /// Largest ln(w/(1 − w)), with the opposite as the smallest, and how many are tried before the best is searched nearby.
@@ -71,34 +77,76 @@ pub(crate) fn of(problem: &Problem, unknowns: &Unknowns) -> Result<Option<f64>, 
     }))
 }
 
-impl Problem {
-    /// With the noise that its functions show from line to line where it goes with their values, and what is said of it; `None` of any
-    /// other. A level that `is_stated` is that over all lines.
-    pub(crate) fn with_shown_noise(&self, is_stated: bool) -> Option<(Self, String)> {
-        let shown = of_assembly(self).filter(|shown| shown.is_noise)?;
+/// A test with noise that seems to go with the values of the assembly's functions.
+#[derive(Clone, Debug)]
+pub(crate) struct Uneven {
+    problem: Problem,
+    note: String,
+    /// Mean of ln σ²(ω)/σ²: by how much a number is more likely than with noise that is alike, at the same χ².
+    likelier: f64,
+}
+
+impl Uneven {
+    /// As functions show it from line to line; `None` of any other noise. A level that `is_stated` is that over all lines.
+    pub(crate) fn shown(even: &Problem, is_stated: bool) -> Option<Self> {
+        let shown = of_assembly(even).filter(|shown| shown.is_noise)?;
         // where noise is as large as values, these are not known well enough to tell it
         let is_of_values = shown.relative < LARGE && shown.floor < MINOR * shown.relative;
         let part = is_of_values.then_some(shown.relative)?;
-        let mut own = self.clone();
-        for one in &mut own.observed {
-            let floor =
-                shown.floor * median(one.values.iter().map(|value| value.norm()).collect())?;
-            let noise = one.values.iter();
-            let noise: Vec<f64> = noise
-                .map(|value| (part * value.norm()).hypot(floor))
-                .collect();
+        let mut problem = even.clone();
+        let mut logarithms = 0.0;
+        for one in &mut problem.observed {
+            let sizes = one.values.iter().map(|value| value.norm());
+            let floor = shown.floor * median(sizes.clone().collect())?;
+            let noise: Vec<f64> = sizes.map(|size| (part * size).hypot(floor)).collect();
             let level = match is_stated {
                 true => root_mean_square(noise.iter().map(|own| own * own)),
                 false => shown.typical * size(&one.values),
             };
             one.uneven = noise.iter().map(|own| own / level).collect();
+            logarithms += one.uneven.iter().map(|own| 2.0 * own.ln()).sum::<f64>();
         }
         let note = format!(
             "the noise of the assembly's functions is not the same at all lines: they show {} of each value, and each line counts as its \
              noise says",
             percent(part)
         );
-        Some((own, note))
+        let likelier = logarithms / (0.5 * problem.numbers() as f64);
+        likelier.is_finite().then_some(Self {
+            problem,
+            note,
+            likelier,
+        })
+    }
+}
+
+impl SpatialStudy {
+    /// The joint with that noise, or with noise that is the same at all lines, whichever is likelier: what fits from line to line miss
+    /// where these are far apart goes with the values, too.
+    pub(crate) fn identify_with(
+        &self,
+        uneven: &Uneven,
+        misfits: &[Misfit],
+    ) -> Result<SpatialIdentification, SpatialError> {
+        let with = Self {
+            problem: uneven.problem.clone(),
+            ..self.clone()
+        };
+        let squares = |found: &SpatialIdentification| found.reduced_chi_squared.unwrap_or(1.0);
+        let with = with.identify_alone(misfits);
+        let of_with = with.as_ref().map_or(f64::INFINITY, squares);
+        let found = match of_with < EXPLAINED {
+            true => with,
+            false => match self.identify_alone(misfits) {
+                Ok(even) if squares(&even) <= of_with + uneven.likelier => return Ok(even),
+                Err(error) if with.is_err() => return Err(error),
+                _ => with,
+            },
+        };
+        found.map(|mut found| {
+            found.warnings.push(uneven.note.clone());
+            found
+        })
     }
 }
 

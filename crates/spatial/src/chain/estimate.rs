@@ -9,16 +9,15 @@ use crate::advice::{of_noise, of_zero_functions};
 use crate::error::SpatialError;
 use crate::fit::covariance;
 use crate::identification::Unknown;
-use crate::level::{of_residuals, relative_rms, sizes};
+use crate::level::{relative_rms, sizes};
 use crate::links::Sought;
 use crate::normal::Normal;
 use crate::numbers::{Numbers, deviations};
 use crate::problem::{Level, Problem};
 use crate::reasons;
 use crate::search::{Searched, searched};
-
-/// Rounds in which the level of the noise follows the residuals.
-const ROUNDS: usize = 5;
+use crate::settled::Settled;
+use crate::uneven;
 
 /// Lines that are searched from several starts; all are used from where these lead.
 const SEARCHED: usize = 40;
@@ -92,7 +91,7 @@ impl ChainStudy {
             });
         }
         let rms = sizes(&problem);
-        let mut level = match self.level {
+        let first = match self.level {
             Level::Relative(part) => rms.iter().map(|rms| part * rms).collect(),
             Level::OfResiduals => rms.clone(),
         };
@@ -101,15 +100,16 @@ impl ChainStudy {
             fit,
             starts,
             rivals,
-        } = searched(&problem.thinned(SEARCHED), &level, is_stated)?;
+        } = searched(&problem.thinned(SEARCHED), &first, is_stated)?;
         let _step = step("the estimate at all lines", Pieces::Unknown);
-        let mut best = fit.on(&problem, &level)?;
-        if let Level::OfResiduals = self.level {
-            for _ in 0..ROUNDS {
-                level = of_residuals(&problem, &best.unknowns, &rms)?;
-                best = best.on(&problem, &level)?;
-            }
-        }
+        let fit = fit.on(&problem, &first)?;
+        let Settled {
+            problem,
+            best,
+            level,
+            of_values,
+            ..
+        } = Settled::of(&problem, fit, (&first, is_stated), &rms)?;
         let apart = apart(&problem, &best.unknowns, &level)?;
         let freedom = (2 * functions * lines - count) as f64;
         let reduced_chi_squared = is_stated.then_some(best.cost / freedom);
@@ -146,6 +146,7 @@ impl ChainStudy {
             warnings: (self.assumed.iter().cloned())
                 .chain(of_zero_functions(zero_functions, functions))
                 .chain(of_noise(self.level, reduced_chi_squared))
+                .chain(uneven::told(of_values))
                 .collect(),
             reasons_against: Vec::new(),
         };

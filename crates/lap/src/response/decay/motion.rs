@@ -123,11 +123,15 @@ pub(super) fn changes(
             }
             row += 1;
         };
-        match part.len() {
-            ..=FEW => along::<FEW>(values, release, record, grid, part, |n| take(&n.change))?,
-            ..=MORE => along::<MORE>(values, release, record, grid, part, |n| take(&n.change))?,
-            _ => along::<MOST>(values, release, record, grid, part, |n| take(&n.change))?,
-        }
+        let count = part.len();
+        let followed = if count <= FEW {
+            along::<FEW>(values, release, record, grid, part, |n| take(&n.change))
+        } else if count <= MORE {
+            along::<MORE>(values, release, record, grid, part, |n| take(&n.change))
+        } else {
+            along::<MOST>(values, release, record, grid, part, |n| take(&n.change))
+        };
+        followed?;
         first += part.len();
     }
     Some(columns)

@@ -89,7 +89,7 @@ fn missing_keys_and_wrong_types_are_named_with_their_line() {
         ("frf = \"c.uff\"\n", "", ["line 11", "missing field `frf`"]),
         (", spacing = 0.015", "", ["line 6", "missing field `spacing`"]),
         ("density = 2700, ", "", ["line 8", "missing field `density`"]),
-        ("name = \"beams\"", "name = 3", ["line 3, column 8", "expected a string"]),
+        ("name = \"beams\"", "name = 3", ["line 3, column 8", "expected a text"]),
         ("length = 0.2", "length = \"0.2\"", ["line 8", "expected a number, or a text such as"]),
         ("from = 5", "from = \"5 Hz\"", ["line 17", "\"5 Hz\""]),
         ("[[50, 60]]", "[50, 60]", ["line 20", "expected an array of length 2"]),

@@ -82,8 +82,8 @@ pub(crate) fn of(problem: &Problem, unknowns: &Unknowns) -> Result<Option<f64>, 
 pub(crate) struct Uneven {
     problem: Problem,
     note: String,
-    /// Mean of ln σ²(ω)/σ²: by how much a number is more likely than with noise that is alike, at the same χ².
-    likelier: f64,
+    /// Mean of ln σ²(ω)/σ²: by so much a number's −2 ln L is above that with noise that is alike, at the same χ².
+    above: f64,
 }
 
 impl Uneven {
@@ -111,11 +111,11 @@ impl Uneven {
              noise says",
             percent(part)
         );
-        let likelier = logarithms / (0.5 * problem.numbers() as f64);
-        likelier.is_finite().then_some(Self {
+        let above = logarithms / (0.5 * problem.numbers() as f64);
+        above.is_finite().then_some(Self {
             problem,
             note,
-            likelier,
+            above,
         })
     }
 }
@@ -138,7 +138,7 @@ impl SpatialStudy {
         let found = match of_with < EXPLAINED {
             true => with,
             false => match self.identify_alone(misfits) {
-                Ok(even) if squares(&even) <= of_with + uneven.likelier => return Ok(even),
+                Ok(even) if squares(&even) <= of_with + uneven.above => return Ok(even),
                 Err(error) if with.is_err() => return Err(error),
                 _ => with,
             },

@@ -179,6 +179,7 @@ impl<N: Number> Law<N> {
             };
             left_s -= at_s;
         }
+        place.slips = beyond(place) >= -AT_CORNER * self.corner;
         *place = self.stepped(place, left_s);
     }
 

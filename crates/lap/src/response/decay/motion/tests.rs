@@ -111,7 +111,7 @@ fn a_motion_that_grows_is_none_of_a_decay() {
 }
 
 /// By central differences of the samples themselves, of each kind of law and quantity, with a release before the first sample and
-/// one just behind it. The motion turns hundreds of times, and passes the corner of its load in each loop.
+/// one just behind it. The motion turns some sixty times, and its first loops pass the corner of the load.
 #[test]
 fn changes_are_those_of_differences() {
     use crate::response::slider::{Slider, SliderParameter as Of};

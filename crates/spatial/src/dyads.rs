@@ -14,13 +14,63 @@ use crate::problem::Problem;
 /// Which functions there are, rows × columns, and how much each counts.
 #[derive(Clone)]
 pub(crate) struct Grid {
-    /// 1/σ², 0 for what was not measured.
+    /// 1/σ², 0 for what was not measured; of the rows and columns in which anything was.
     weights: DMatrix<f64>,
+    /// These rows and columns, where there are others.
+    measured: Option<[Vec<usize>; 2]>,
 }
 
 impl Grid {
+    /// Of 1/σ², 0 for what was not measured.
     pub(crate) fn new(weights: DMatrix<f64>) -> Self {
-        Self { weights }
+        let is_measured = |weight: &f64| *weight > 0.0;
+        let rows = (0..weights.nrows()).filter(|&row| weights.row(row).iter().any(is_measured));
+        let columns = 0..weights.ncols();
+        let columns = columns.filter(|&column| weights.column(column).iter().any(is_measured));
+        let measured = [rows.collect::<Vec<_>>(), columns.collect()];
+        match measured.each_ref().map(Vec::len) == [weights.nrows(), weights.ncols()] {
+            true => Self {
+                weights,
+                measured: None,
+            },
+            false => Self {
+                weights: weights
+                    .select_rows(&measured[0])
+                    .select_columns(&measured[1]),
+                measured: Some(measured),
+            },
+        }
+    }
+
+    /// Where the functions are that were measured, and how much each counts.
+    pub(crate) fn functions(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
+        let count = self.weights.nrows();
+        let place = move |n: usize| match &self.measured {
+            None => [n % count, n / count],
+            Some([rows, columns]) => [rows[n % count], columns[n / count]],
+        };
+        let weights = self.weights.iter().enumerate();
+        let weights = weights.map(move |(n, weight)| (place(n), *weight));
+        weights.filter(|(_, weight)| *weight > 0.0)
+    }
+
+    /// What a group does to the rows and columns in which anything was measured.
+    fn of_group<'g>(&self, group: &'g Group) -> Cow<'g, Group> {
+        match &self.measured {
+            None => Cow::Borrowed(group),
+            Some([rows, columns]) => Cow::Owned(Group {
+                left: group.left.select_rows(rows),
+                right: group.right.select_columns(columns),
+            }),
+        }
+    }
+
+    /// Likewise values of all functions.
+    fn of_values<'v>(&self, values: &'v DMatrix<Complex64>) -> Cow<'v, DMatrix<Complex64>> {
+        match &self.measured {
+            None => Cow::Borrowed(values),
+            Some([rows, columns]) => Cow::Owned(values.select_rows(rows).select_columns(columns)),
+        }
     }
 }
 
@@ -95,8 +145,12 @@ pub(crate) fn side_by_side(groups: &[Group]) -> (usize, Vec<(usize, &Group)>) {
 /// Σ_o conj(x_p) x_r H.
 pub(crate) fn add_below(grid: &Grid, groups: &Placed<'_>, all: &mut DMatrix<Complex64>) {
     let weights = grid.weights.transpose();
-    for (s, &(first, one)) in groups.iter().enumerate() {
-        for (t, &(second, other)) in groups.iter().enumerate().skip(s) {
+    let groups = groups.iter();
+    let groups: Vec<_> = groups
+        .map(|(place, group)| (*place, grid.of_group(group)))
+        .collect();
+    for (s, (first, one)) in groups.iter().enumerate() {
+        for (t, (second, other)) in groups.iter().enumerate().skip(s) {
             let [of_columns, turned] = over_columns(&one.right, &other.right, &weights);
             let pairs = pairs([one, other], s == t);
             let [of_rows, sideways] = by_rows([one, other], &pairs);
@@ -188,11 +242,13 @@ pub(crate) fn add_descent(
     errors: &DMatrix<Complex64>,
     all: &mut DVector<Complex64>,
 ) {
-    let weighted = errors.zip_map(&grid.weights, |error, weight| weight * error);
-    for &(first, group) in groups {
+    let weighted = grid.of_values(errors);
+    let weighted = weighted.zip_map(&grid.weights, |error, weight| weight * error);
+    for (first, group) in groups {
+        let group = grid.of_group(group);
         // x̄ᵀ (w e) ȳᵀ, row by row
         let sums = group.left.ad_mul(&weighted) * group.right.adjoint();
-        for (own, sum) in all.iter_mut().skip(first).zip(sums.transpose().iter()) {
+        for (own, sum) in all.iter_mut().skip(*first).zip(sums.transpose().iter()) {
             *own += sum;
         }
     }
@@ -200,7 +256,8 @@ pub(crate) fn add_descent(
 
 /// Σ w Re conj(d) e.
 pub(crate) fn product(grid: &Grid, d: &DMatrix<Complex64>, e: &DMatrix<Complex64>) -> f64 {
-    let terms = d.iter().zip(e).zip(&grid.weights);
+    let (d, e) = (grid.of_values(d), grid.of_values(e));
+    let terms = d.iter().zip(e.iter()).zip(&grid.weights);
     terms
         .map(|((d, e), weight)| weight * (d.conj() * e).re)
         .sum()
@@ -208,6 +265,7 @@ pub(crate) fn product(grid: &Grid, d: &DMatrix<Complex64>, e: &DMatrix<Complex64
 
 /// Σ w |e|².
 pub(crate) fn squares(grid: &Grid, errors: &DMatrix<Complex64>) -> f64 {
+    let errors = grid.of_values(errors);
     let terms = errors.iter().zip(&grid.weights);
     terms.map(|(error, weight)| weight * error.norm_sqr()).sum()
 }

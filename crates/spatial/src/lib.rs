@@ -19,6 +19,7 @@ mod contradicted;
 mod dyads;
 mod error;
 mod estimate;
+mod few;
 mod fit;
 mod fits;
 mod functions;

@@ -8,9 +8,11 @@ use num_complex::Complex64;
 use crate::assembled::{Assembled, Line};
 use crate::dyads::{Lines, add_below, descent, side_by_side, squares};
 use crate::error::SpatialError;
+use crate::few::Few;
 use crate::parallel::over_lines;
 use crate::patterns::Patterns;
 use crate::problem::{Problem, Unknowns};
+use crate::side::MOTIONS;
 use crate::sums::{Slopes, Sums};
 
 /// Weighted squares and what they say of a step.
@@ -159,25 +161,36 @@ fn of_lines(
     grids: &Lines<'_>,
     lines: Range<usize>,
 ) -> Result<Sums, SpatialError> {
+    let of_joints = MOTIONS * MOTIONS * problem.links.sought().len();
     let mut sums = Sums::default();
+    let mut few = None;
     // memory of this size takes long to get for every line
     let mut below = DMatrix::default();
     for line in lines {
         let found = assembled.line(line)?;
         let errors = residuals(problem, line, &found);
         let groups = assembled.dyads(line, &found);
-        let grid = &*grids.at(line);
+        let (grid, omega) = (&*grids.at(line), problem.omega(line));
         let (count, placed) = side_by_side(&groups);
-        below.resize_mut(count, count, Complex64::ZERO);
-        below.fill(Complex64::ZERO);
-        add_below(grid, &placed, &mut below);
-        sums.add_line(
-            problem.omega(line),
-            36 * problem.links.sought().len(),
-            &below,
-            &descent(grid, &groups, &errors),
-            2.0 * squares(grid, &errors),
-        );
+        if sums.flat.is_empty() {
+            sums = Sums::zeros(of_joints, count);
+            few = Few::of(grid, count);
+        }
+        match &mut few {
+            Some(few) => few.add_line(omega, grid, &groups, &mut sums),
+            None => {
+                below.resize_mut(count, count, Complex64::ZERO);
+                below.fill(Complex64::ZERO);
+                add_below(grid, &placed, &mut below);
+                sums.add_line(omega, &below);
+            }
+        }
+        let slopes = descent(grid, &groups, &errors);
+        sums.slopes.add_line(omega, of_joints, &slopes);
+        sums.squares += 2.0 * squares(grid, &errors);
+    }
+    if let Some(mut few) = few {
+        few.sum_up(&mut sums);
     }
     Ok(sums)
 }

@@ -45,21 +45,19 @@ impl Slopes {
 }
 
 impl Sums {
-    /// A line with the lower triangle of M, and s; the first dyads are those of the joints.
-    pub(crate) fn add_line(
-        &mut self,
-        omega: f64,
-        of_joints: usize,
-        below: &DMatrix<Complex64>,
-        slopes: &DVector<Complex64>,
-        squares: f64,
-    ) {
-        if self.flat.is_empty() {
-            let count = below.nrows();
-            self.flat = DMatrix::zeros(count, count);
-            self.tilted = DMatrix::zeros(of_joints, count);
-            self.curved = DMatrix::zeros(of_joints, of_joints);
+    /// Of no line yet, for so many dyads, of which the first are those of the joints.
+    pub(crate) fn zeros(of_joints: usize, count: usize) -> Self {
+        Self {
+            flat: DMatrix::zeros(count, count),
+            tilted: DMatrix::zeros(of_joints, count),
+            curved: DMatrix::zeros(of_joints, of_joints),
+            ..Self::default()
         }
+    }
+
+    /// A line with the lower triangle of M.
+    pub(crate) fn add_line(&mut self, omega: f64, below: &DMatrix<Complex64>) {
+        let of_joints = self.tilted.nrows();
         self.flat.zip_apply(below, |own, sum| *own += sum.re);
         let of = |i: usize, j: usize| match i < j {
             true => below[(j, i)].conj(),
@@ -73,8 +71,6 @@ impl Sums {
                 self.curved[(i, j)] += omega * omega * of(i, j).re;
             }
         }
-        self.slopes.add_line(omega, of_joints, slopes);
-        self.squares += squares;
     }
 
     pub(crate) fn add(&mut self, other: &Self) {

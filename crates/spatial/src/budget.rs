@@ -4,9 +4,10 @@ use bolted_joint_study::{Deviation, StudyError};
 use bolted_joint_virtual_point::{Tolerance, Tolerances};
 
 use crate::chain::part::{Part, PartInterface};
+use crate::prior::Common;
 use crate::side::{Anew, Side};
 use crate::study::Reader;
-use crate::tables::{AnewTable, BudgetTable, DeviationsTable};
+use crate::tables::{BudgetTable, DeviationsTable, PoseTable};
 
 /// A standard deviation of the set-up that is larger is in another unit.
 const MOST_DEVIATION: f64 = 1.0;
@@ -24,12 +25,21 @@ pub(crate) const TYPICAL_ANEW: Tolerance = Tolerance {
     gain: 0.0,
 };
 
+/// How far all places of an interface are off as a whole, or a joint itself, in a careful laboratory: about as a bolt in its hole.
+pub(crate) const TYPICAL_WHOLE: Tolerance = Tolerance {
+    position_m: 5e-4,
+    rotation_rad: 5e-3,
+    gain: 0.0,
+};
+
 /// How well the set-up is known.
 pub(crate) struct Budget {
     /// Of all tests; `None` where nothing is wrong with it.
     pub(crate) tolerances: Option<Tolerances>,
     /// How far sensors and hits of the assembly are from those of the substructures' tests.
     pub(crate) anew: Anew,
+    /// What may be off as a whole.
+    pub(crate) common: Common,
 }
 
 impl Reader<'_> {
@@ -45,20 +55,25 @@ impl Reader<'_> {
             gain,
             sensors,
             hits,
+            origin,
+            joint,
         } = match table {
             BudgetTable::None => {
                 return Ok(Budget {
                     tolerances: None,
                     anew: Anew::default(),
+                    common: Common::default(),
                 });
             }
             BudgetTable::Deviations(own) => *own,
         };
-        let position_of = |own: Option<AnewTable>| own.and_then(|own| own.position);
+        let position_of = |own: Option<PoseTable>| own.and_then(|own| own.position);
         for (key, given) in [
             ("position", position),
             ("sensors.position", position_of(sensors)),
             ("hits.position", position_of(hits)),
+            ("origin.position", position_of(origin)),
+            ("joint.position", position_of(joint)),
         ] {
             if let Some(Deviation(value)) = given {
                 self.ensure_smaller_than_rig(key, value, parts)?;
@@ -71,31 +86,41 @@ impl Reader<'_> {
             gain: self.deviation("gain", gain, typical.gain)?,
         };
         let anew = Anew {
-            sensors: self.anew("sensors", sensors)?,
-            hits: self.anew("hits", hits)?,
+            sensors: self.pose("sensors", sensors, TYPICAL_ANEW)?,
+            hits: self.pose("hits", hits, TYPICAL_ANEW)?,
+        };
+        let common = Common {
+            origin: self.pose("origin", origin, TYPICAL_WHOLE)?,
+            joint: self.pose("joint", joint, TYPICAL_WHOLE)?,
         };
         // whether anything about a set-up can be wrong
         let has_places = sides.iter().any(|side| !side.parameters().is_empty());
-        let is_known = is_exact(&own) && anew == Anew::default();
+        let is_known = is_exact(&own) && anew == Anew::default() && common == Common::default();
         Ok(Budget {
             tolerances: (has_places && !is_known).then_some(Tolerances {
                 sensors: own,
                 impacts: own,
             }),
             anew,
+            common,
         })
     }
 
-    /// How far sensors or hits are from where they were; `None` where nothing says that they are elsewhere.
-    fn anew(&self, name: &str, table: Option<AnewTable>) -> Result<Option<Tolerance>, StudyError> {
-        let Some(AnewTable { position, rotation }) = table else {
+    /// How far something is from where it should be; `None` where nothing says that it is elsewhere.
+    fn pose(
+        &self,
+        name: &str,
+        table: Option<PoseTable>,
+        typical: Tolerance,
+    ) -> Result<Option<Tolerance>, StudyError> {
+        let Some(PoseTable { position, rotation }) = table else {
             return Ok(None);
         };
         let of =
             |key: &str, given, typical| self.deviation(&format!("{name}.{key}"), given, typical);
         let own = Tolerance {
-            position_m: of("position", position, TYPICAL_ANEW.position_m)?,
-            rotation_rad: of("rotation", rotation, TYPICAL_ANEW.rotation_rad)?,
+            position_m: of("position", position, typical.position_m)?,
+            rotation_rad: of("rotation", rotation, typical.rotation_rad)?,
             gain: 0.0,
         };
         Ok((!is_exact(&own)).then_some(own))

@@ -20,8 +20,8 @@ const UNKNOWN: f64 = 3.0;
 
 /// Factors of the budget's deviations with which these errors are likely; `None` where all are.
 pub(crate) fn wider(problem: &Problem, unknowns: &Unknowns) -> Option<Vec<f64>> {
-    let deviations = problem.error_deviations();
-    let errors = &unknowns.0.as_slice()[problem.joint_count()..];
+    let deviations = problem.own_deviations();
+    let errors = problem.prior().alone(unknowns);
     let pulls = errors
         .iter()
         .zip(&deviations)

@@ -1,6 +1,7 @@
 //! What the result shows of functions and of the set-up.
 
-use bolted_joint_virtual_point::Place;
+use bolted_joint_space::Dof;
+use bolted_joint_virtual_point::{Change, Place};
 use nalgebra::DMatrix;
 
 use crate::assembled::Assembled;
@@ -75,24 +76,41 @@ impl Problem {
         unknowns: &Unknowns,
         covariance: &DMatrix<f64>,
     ) -> Vec<SetUpError> {
-        let first = self.joint_count();
+        let (first, count) = (self.joint_count(), self.error_count());
+        let prior = self.prior();
+        let covariance = covariance.view((first, first), (count, count)).into_owned();
         let parameters = self.sides.iter().flat_map(Side::parameters);
-        parameters
+        let alone = prior.alone(unknowns);
+        let of_places = parameters
             .zip(self.budget_deviations())
-            .enumerate()
-            .map(|(n, (one, expected))| SetUpError {
+            .zip(&alone)
+            .zip(prior.deviations_alone(&covariance))
+            .map(|(((one, expected), value), deviation)| SetUpError {
                 key: match one.test {
                     Test::All => one.placed.key(one.parameter.place),
                     Test::Assembly(_) => {
                         format!("{} in the assembly", one.placed.key(one.parameter.place))
                     }
                 },
+                is_whole: false,
                 change: one.parameter.change,
-                value: unknowns.0[first + n],
-                deviation: covariance[(first + n, first + n)].sqrt(),
+                value: *value,
+                deviation,
+                expected,
+            });
+        let of_wholes = prior.wholes(unknowns, &covariance).into_iter();
+        let of_wholes = of_wholes.flat_map(|(whole, values)| {
+            let each = Dof::ALL.into_iter().zip(values);
+            each.map(move |(dof, [value, deviation, expected])| SetUpError {
+                key: whole.to_string(),
+                is_whole: true,
+                change: Change::Pose(dof),
+                value,
+                deviation,
                 expected,
             })
-            .collect()
+        });
+        of_places.chain(of_wholes).collect()
     }
 }
 

@@ -5,6 +5,8 @@ use bolted_joint_virtual_point::Change;
 use nalgebra::{DMatrix, Matrix6};
 use num_complex::Complex64;
 
+use crate::spread::WHOLES;
+
 /// 97.5 % quantile of the normal distribution.
 pub(crate) const QUANTILE: f64 = 1.959_963_984_540_054;
 
@@ -60,11 +62,29 @@ pub struct Group {
     pub largest_share: f64,
 }
 
+impl Group {
+    /// Whether an error is one of them.
+    #[must_use]
+    pub fn has(&self, error: &SetUpError) -> bool {
+        let side = self.name.rsplit(' ').next().unwrap_or_default();
+        let key = match self.name.starts_with("sensors") {
+            true => format!("{side}.sensors["),
+            false => format!("{side}.impacts["),
+        };
+        match self.name == WHOLES {
+            true => error.is_whole,
+            false => error.key.starts_with(&key),
+        }
+    }
+}
+
 /// An error of the set-up, as it was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetUpError {
-    /// The sensor's or impact's key in the study, such as `a.sensors[0]`.
+    /// The sensor's or impact's key in the study, such as `a.sensors[0]`; or what is off as a whole, such as `a as a whole`.
     pub key: String,
+    /// Whether it is one of all places of an interface, or of the joint, and not of one sensor or impact.
+    pub is_whole: bool,
     /// Which number of it.
     pub change: Change,
     /// m, rad or parts of the gain.

@@ -45,6 +45,7 @@ mod part_noise;
 mod passive;
 mod patterns;
 mod phases;
+mod prior;
 mod problem;
 mod reasons;
 mod richer;

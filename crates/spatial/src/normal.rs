@@ -50,29 +50,14 @@ pub(crate) fn cost(
     Ok(squares_of_errors(problem, unknowns) + sums.iter().sum::<f64>())
 }
 
-/// Σ (η/σ)² of the errors of the set-up: about as many as there are, or fewer, where the budget holds.
+/// ηᵀ P η of the errors of the set-up: about as many as there are, or fewer, where the budget holds.
 pub(crate) fn squares_of_errors(problem: &Problem, unknowns: &Unknowns) -> f64 {
-    priors(problem, unknowns)
-        .map(|[error, deviation]| (error / deviation).powi(2))
-        .sum()
-}
-
-/// Each error of the set-up with its deviation.
-fn priors(problem: &Problem, unknowns: &Unknowns) -> impl Iterator<Item = [f64; 2]> {
-    let errors = unknowns.0.as_slice()[problem.joint_count()..].to_vec();
-    let deviations = problem.error_deviations();
-    errors.into_iter().zip(deviations).map(<[f64; 2]>::from)
+    problem.prior().squares(unknowns)
 }
 
 /// The squares of the errors of the set-up join the others.
 pub(crate) fn add_priors(problem: &Problem, unknowns: &Unknowns, normal: &mut Normal) {
-    for (n, [error, deviation]) in priors(problem, unknowns).enumerate() {
-        let place = problem.joint_count() + n;
-        let weight = 1.0 / (deviation * deviation);
-        normal.information[(place, place)] += weight;
-        normal.descent[place] -= weight * error;
-        normal.cost += weight * error * error;
-    }
+    problem.prior().add_to(unknowns, normal);
 }
 
 /// Part of a step to either side at which second differences are taken.
@@ -241,7 +226,9 @@ mod tests {
                 }
             }
         }
-        for (n, [error, deviation]) in priors(&problem, &at).enumerate() {
+        let errors = at.0.as_slice()[problem.joint_count()..].to_vec();
+        let deviations_of_errors = problem.own_deviations();
+        for (n, (error, deviation)) in errors.into_iter().zip(deviations_of_errors).enumerate() {
             let place = problem.joint_count() + n;
             let weight = 1.0 / (deviation * deviation);
             expected.information[(place, place)] += weight;

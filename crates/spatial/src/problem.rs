@@ -10,6 +10,7 @@ use num_complex::Complex64;
 use crate::budget::EXACT;
 use crate::error::SpatialError;
 use crate::links::{Links, Sought};
+use crate::prior::Common;
 use crate::side::{Anew, Side};
 use crate::transformations::Transformations;
 
@@ -60,6 +61,8 @@ pub(crate) struct Problem {
     pub(crate) tolerances: Option<Tolerances>,
     /// By how much the deviation of each error of the set-up is wider than the tolerances say; empty where none is, of no account without them.
     pub(crate) wider: Vec<f64>,
+    /// What of it may be off as a whole.
+    pub(crate) common: Common,
     /// Stiffnesses that balance the structures in each motion of the joints that are sought, N/m and N·m/rad: 1/|H_ii|. Where they
     /// are known, steps follow the functions.
     pub(crate) balance: Option<Vec<f64>>,
@@ -113,6 +116,7 @@ impl Problem {
             links: self.links.clone(),
             tolerances: self.tolerances,
             wider: self.wider.clone(),
+            common: self.common,
             balance: self.balance.clone(),
         }
     }
@@ -217,8 +221,8 @@ impl Problem {
         self.sides.iter().flat_map(of).collect()
     }
 
-    /// Those with which they are estimated.
-    pub(crate) fn error_deviations(&self) -> Vec<f64> {
+    /// Those with which they are estimated, each by itself.
+    pub(crate) fn own_deviations(&self) -> Vec<f64> {
         let mut all = self.budget_deviations();
         for (own, factor) in all.iter_mut().zip(&self.wider) {
             *own *= factor;
@@ -243,7 +247,7 @@ impl Problem {
         };
         let all: Vec<f64> = of_joints
             .into_iter()
-            .chain(self.error_deviations())
+            .chain(self.prior().deviations())
             .collect();
         Ok(DVector::from_vec(all))
     }

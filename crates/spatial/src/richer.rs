@@ -43,7 +43,8 @@ impl Richer {
         let Self { gain, more, .. } = self;
         format!(
             "a joint of all numbers would fit better: χ² falls by about {gain:.0} with {more} further ones, of which noise explains \
-             {more}; the joint is not what its model says, and its deviations are too small; take model = \"full\""
+             {more}; the joint is not what its model says, or not where, and its deviations are too small; take model = \"full\", or state \
+             in budget.joint how far it may be beside its point"
         )
     }
 
@@ -64,7 +65,8 @@ impl Richer {
                     let value = matrices[n][at] + self.shifts[n][at];
                     let told = format!(
                         "the joint is not what its model says: with all numbers {} would be about {value:.3e} and not {:.3e}, {by:.0} \
-                         standard deviations away; take model = \"full\", or one that has the numbers that differ",
+                         standard deviations away; take model = \"full\", or one that has the numbers that differ, or state in budget.joint how \
+                         far the joint may be beside its point",
                         entry.name(part),
                         matrices[n][at],
                     );

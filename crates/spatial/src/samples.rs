@@ -8,6 +8,7 @@ use num_complex::Complex64;
 
 use crate::chain::joined;
 use crate::links::{Link, Links, Numbers};
+use crate::prior::Common;
 use crate::problem::{Observed, Problem, Unknowns};
 use crate::side::{Anew, Interface, Placed, Side};
 
@@ -75,6 +76,7 @@ fn sample(sides: [Side; 2], lengths_m: &[f64], [rows, columns]: [&[usize]; 2]) -
         links: Links(lengths_m.iter().enumerate().map(link).collect()),
         tolerances: Some(Tolerances::TYPICAL),
         wider: Vec::new(),
+        common: Common::default(),
         balance: None,
     }
 }

@@ -58,12 +58,13 @@ pub(crate) fn reason(
     Some(match of_shift >= of_turn {
         true => format!(
             "all places of b seem to lie ({}) mm from where the study has them, against those of a, {of_shift:.0} times what the budget \
-             lets their mean be: state the positions of both from one point of the joint, half thicknesses of plates and adapters with them",
+             lets their mean be: state the positions of both from one point of the joint, half thicknesses of plates and adapters with them, \
+             or in budget.origin how well that point is known",
             told(&along, 1e3)
         ),
         false => format!(
             "all places of b seem to be turned by ({})° from how the study has them, against those of a, {of_turn:.0} times what the \
-             budget lets their mean be: state positions and directions of both in the same axes",
+             budget lets their mean be: state positions and directions of both in the same axes, or in budget.origin how well these are known",
             told(&about, 1f64.to_degrees())
         ),
     })
@@ -77,7 +78,7 @@ fn mean(
     dof: Dof,
 ) -> Option<Mean> {
     let sides = problem.sides.each_ref().map(Side::parameters);
-    let errors = problem.errors(unknowns).concat();
+    let errors = problem.prior().alone(unknowns);
     let parameters = || sides.iter().flatten();
     let is_of_kind: Vec<bool> = parameters()
         .map(|one| one.test == Test::All && one.parameter.change == Change::Pose(dof))
@@ -107,7 +108,7 @@ fn mean(
         .filter(|&n| is_of_kind[n])
         .max_by(|&one, &other| errors[one].abs().total_cmp(&errors[other].abs()))?;
     let all = of(&kept(None))?;
-    let deviation = problem.error_deviations()[farthest];
+    let deviation = problem.own_deviations()[farthest];
     let is_off_by_itself = errors[farthest].abs() > contradicted::BEYOND * deviation;
     let others = match is_off_by_itself {
         true => of(&kept(Some(farthest)))?.pull,
@@ -128,8 +129,7 @@ fn of_weights(
 ) -> Option<Mean> {
     let (joint, errors) = (problem.joint_count(), weights.len());
     let found = unknowns.0.rows(joint, errors).dot(weights);
-    let of_budget = weights.iter().zip(problem.error_deviations());
-    let before: f64 = of_budget.map(|(weight, by)| (weight * by).powi(2)).sum();
+    let before = problem.prior().variance(weights);
     let after = covariance.view((joint, joint), (errors, errors)) * weights;
     // an estimate that the budget draws back varies by what the data take off its variance
     let told = before - weights.dot(&after);

@@ -10,6 +10,9 @@ use crate::side::Test;
 /// Information on an error of the set-up that is known, in parts of what there is.
 const KNOWN: f64 = 1e9;
 
+/// What is off as a whole, among the groups.
+pub(crate) const WHOLES: &str = "places as a whole";
+
 /// Covariances of the unknowns of the joints.
 pub(crate) struct Spread {
     /// With the errors of the set-up.
@@ -48,6 +51,13 @@ impl Spread {
             &by_noise + moved * follows.transpose()
         };
         let joint = with(&together);
+        let of_wholes = problem.prior().without_wholes().map(|more| {
+            let mut known = information.clone();
+            let mut own = known.view_mut((count, count), (errors, errors));
+            own += more;
+            let without = covariance(&known).map_or_else(|| joint.clone(), |all| with(&all));
+            (WHOLES.to_owned(), &joint - without)
+        });
         let groups = groups(problem)
             .into_iter()
             .map(|(name, columns)| {
@@ -60,6 +70,7 @@ impl Spread {
                 let without = covariance(&known).map_or_else(|| joint.clone(), |all| with(&all));
                 (name, &joint - without)
             })
+            .chain(of_wholes)
             .collect();
         Some(Self {
             all: joint,

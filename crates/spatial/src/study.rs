@@ -111,6 +111,7 @@ impl SpatialStudy {
             problem: Problem {
                 tolerances: budget.tolerances,
                 wider: Vec::new(),
+                common: budget.common,
                 balance: None,
                 sides,
                 frequency_hz,

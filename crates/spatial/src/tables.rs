@@ -294,7 +294,7 @@ impl<'de> Deserialize<'de> for BudgetTable {
             type Value = BudgetTable;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"none\" or a table with position, rotation, gain, sensors and hits")
+                f.write_str("\"none\" or a table with position, rotation, gain, sensors, hits, origin and joint")
             }
 
             fn visit_str<E: de::Error>(self, word: &str) -> Result<BudgetTable, E> {
@@ -322,13 +322,16 @@ pub(crate) struct DeviationsTable {
     pub(crate) rotation: Option<Deviation>,
     pub(crate) gain: Option<Deviation>,
     /// How far sensors of the assembly are from where they were in the substructures' tests, and hits likewise.
-    pub(crate) sensors: Option<AnewTable>,
-    pub(crate) hits: Option<AnewTable>,
+    pub(crate) sensors: Option<PoseTable>,
+    pub(crate) hits: Option<PoseTable>,
+    /// How far all places of an interface may be off as a whole, and the joint itself.
+    pub(crate) origin: Option<PoseTable>,
+    pub(crate) joint: Option<PoseTable>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with position and rotation")]
-pub(crate) struct AnewTable {
+pub(crate) struct PoseTable {
     /// m.
     pub(crate) position: Option<Deviation>,
     /// rad.

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use bolted_joint_space::{Dof, Motions};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 
 use crate::place::Body;
 use crate::{Change, Impact, Place, Role, Sensor, VirtualPointError};
@@ -112,6 +112,11 @@ impl Places {
     #[must_use]
     pub fn matrix(&self) -> &DMatrix<f64> {
         &self.matrix
+    }
+
+    /// Where each sensor or impact is, m.
+    pub fn positions_m(&self) -> impl Iterator<Item = Vector3<f64>> {
+        self.bodies.iter().map(|body| *body.position_m())
     }
 
     /// The rows of each sensor or impact.

@@ -6,8 +6,8 @@ use serde_json::json;
 
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::space::{
-    Change, Misfit, MisfitCause, Role, SideConsistency, SpatialIdentification, SpatialStudy,
-    Unknown, joints_sought,
+    Change, Misfit, MisfitCause, Role, SetUpError, SideConsistency, SpatialIdentification,
+    SpatialStudy, Unknown, joints_sought,
 };
 use bolted_joint::report::{SpatialReport, spatial_figure};
 use bolted_joint::study::StudyText;
@@ -248,7 +248,32 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
             number(100.0 * group.largest_share, 2)
         );
     }
-    text
+    text + &of_wholes(found)
+}
+
+/// By how much what may be off as a whole is off.
+fn of_wholes(found: &SpatialIdentification) -> String {
+    let wholes: Vec<&SetUpError> = found.errors.iter().filter(|own| own.is_whole).collect();
+    let each = wholes.chunk_by(|one, other| one.key == other.key);
+    let told = |errors: &[&SetUpError], is_turn: bool, scale: f64| -> String {
+        let own = errors
+            .iter()
+            .filter(|own| matches!(own.change, Change::Pose(dof) if dof.is_rotation() == is_turn));
+        let values = own.map(|own| {
+            let [value, deviation] = [own.value, own.deviation].map(|own| scale * own);
+            format!("{value:.2} ± {deviation:.2}")
+        });
+        values.collect::<Vec<_>>().join(", ")
+    };
+    each.map(|errors| {
+        format!(
+            "{}: moved by {} mm, turned by {} mrad\n",
+            errors[0].key,
+            told(errors, false, 1e3),
+            told(errors, true, 1e3)
+        )
+    })
+    .collect()
 }
 
 /// How rigidly the interfaces moved.

@@ -22,16 +22,10 @@ pub(super) fn section(found: &SpatialIdentification) -> String {
         .groups
         .iter()
         .map(|group| {
-            let side = group.name.rsplit(' ').next().unwrap_or_default();
-            let kind = match group.name.starts_with("sensors") {
-                true => "sensors",
-                false => "impacts",
-            };
-            let key = format!("{side}.{kind}[");
             let own: Vec<&SetUpError> = found
                 .errors
                 .iter()
-                .filter(|error| error.key.starts_with(&key))
+                .filter(|error| group.has(error))
                 .collect();
             let pull = |kind: fn(Change) -> bool| {
                 let own: Vec<f64> = own

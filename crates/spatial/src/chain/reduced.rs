@@ -11,6 +11,7 @@ use super::part::{Part, PartInterface};
 use super::study::{ChainStudy, sides};
 use crate::assembled::Assembled;
 use crate::links::{Link, Links};
+use crate::prior::Common;
 use crate::problem::{Problem, Unknowns};
 use crate::side::{Anew, Interface, Placed, Side};
 
@@ -95,6 +96,7 @@ impl ChainStudy {
             links: Links(links.to_vec()),
             tolerances: None,
             wider: Vec::new(),
+            common: Common::default(),
             balance: None,
         };
         let [a, b] = &problem.sides;

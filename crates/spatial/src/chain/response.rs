@@ -12,6 +12,7 @@ use crate::chain::part::Part;
 use crate::chain::study::ChainStudy;
 use crate::error::SpatialError;
 use crate::links::{Link, Links, Numbers};
+use crate::prior::Common;
 use crate::problem::{Problem, Unknowns};
 
 /// One function of an assembly.
@@ -132,6 +133,7 @@ impl ChainStudy {
             links: Links(links),
             tolerances: None,
             wider: Vec::new(),
+            common: Common::default(),
             balance: None,
             observed: Vec::new(),
             ..self.problem.clone()

@@ -255,6 +255,7 @@ impl ChainStudy {
             problem: Problem {
                 tolerances: budget.tolerances,
                 wider: Vec::new(),
+                common: budget.common,
                 balance: None,
                 sides,
                 frequency_hz,

@@ -13,6 +13,7 @@ use super::rows::Rows;
 use crate::assembled::{Assembled, Line};
 use crate::dyads::Group;
 use crate::error::SpatialError;
+use crate::prior::Common;
 use crate::problem::{Observed, Problem, Unknowns, block_diagonal};
 use crate::side::{Anew, Interface, Placed, Side};
 
@@ -57,6 +58,7 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
         links: problem.links.clone(),
         tolerances: None,
         wider: Vec::new(),
+        common: Common::default(),
         balance: None,
     }
 }

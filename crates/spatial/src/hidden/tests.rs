@@ -145,7 +145,7 @@ fn compare_information(problem: Problem) {
         let root = of_h.into_owned().cholesky().unwrap();
         expected += own - cross.ad_mul(&root.solve(&cross.into_owned()));
     }
-    for (n, deviation) in problem.error_deviations().into_iter().enumerate() {
+    for (n, deviation) in problem.own_deviations().into_iter().enumerate() {
         let place = problem.joint_count() + n;
         expected[(place, place)] += deviation.powi(-2);
     }

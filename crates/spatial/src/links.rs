@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use bolted_joint_space::{Entry, Motions, Parametrisation, Part, SpaceError};
+use bolted_joint_space::{Entry, JointModel, Motions, Parametrisation, Part, SpaceError};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::identification::QUANTILE;
@@ -18,6 +18,8 @@ pub(crate) struct Link {
     /// The motions that it connects.
     pub(crate) motions: Motions,
     pub(crate) numbers: Numbers,
+    /// Whether its model says where it is: one of all numbers is what it is, seen from anywhere.
+    pub(crate) is_placed: bool,
 }
 
 /// What is known of a joint.
@@ -27,6 +29,18 @@ pub(crate) enum Numbers {
     Unknown(Parametrisation),
     /// K and C.
     Known(Box<[Matrix6<f64>; 2]>),
+}
+
+impl Numbers {
+    /// Whether they are unknown and fewer than all, so that they belong to a place.
+    pub(crate) fn are_placed(&self, motions: Motions) -> bool {
+        let Self::Unknown(model) = self else {
+            return false;
+        };
+        let full = JointModel::Full.parametrisation();
+        full.and_then(|full| full.within(motions))
+            .is_ok_and(|full| model.count() < full.count())
+    }
 }
 
 /// A joint that is sought, and where its numbers are.

@@ -10,7 +10,7 @@
 
 use std::fmt;
 
-use bolted_joint_space::{Dof, JointModel, Parametrisation};
+use bolted_joint_space::Dof;
 use bolted_joint_virtual_point::{Change, Place, Role, Tolerance};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
 
@@ -101,19 +101,13 @@ impl Wholes {
             }
         }
         if let Some(tolerance) = &joint {
-            let full = JointModel::Full.parametrisation().ok();
-            for sought in problem.links.sought() {
-                let within =
-                    |model: &Parametrisation| model.clone().within(sought.link.motions).ok();
-                let most = full.as_ref().and_then(within);
-                // one of all numbers is what it is seen from
-                if most.is_some_and(|most| sought.model.count() < most.count()) {
-                    all.push(Whole::Joint(sought.link.key.clone()));
-                    deviations.push(tolerance);
-                    let sides = problem.sides.iter();
-                    let own = sides.filter_map(|side| side.interfaces.get(sought.number));
-                    members.push(own.collect());
-                }
+            let sought = problem.links.sought().into_iter();
+            for sought in sought.filter(|sought| sought.link.is_placed) {
+                all.push(Whole::Joint(sought.link.key.clone()));
+                deviations.push(tolerance);
+                let sides = problem.sides.iter();
+                let own = sides.filter_map(|side| side.interfaces.get(sought.number));
+                members.push(own.collect());
             }
         }
         if all.is_empty() {
@@ -306,7 +300,14 @@ impl Prior {
         };
         let all = wholes.all.iter().cloned().enumerate();
         all.map(|(number, whole)| {
-            let own = std::array::from_fn(|dof| of(MOTIONS * number + dof));
+            let own = std::array::from_fn(|dof| {
+                let [value, deviation, budget] = of(MOTIONS * number + dof);
+                match whole {
+                    Whole::Origin(_) => [value, deviation, budget],
+                    // all places are beside the joint by the opposite
+                    Whole::Joint(_) => [-value, deviation, budget],
+                }
+            });
             (whole, own)
         })
         .collect()

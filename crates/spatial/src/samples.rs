@@ -67,6 +67,7 @@ fn sample(sides: [Side; 2], lengths_m: &[f64], [rows, columns]: [&[usize]; 2]) -
         key: format!("joint[{n}]"),
         length_m,
         motions: Motions::ALL,
+        is_placed: false,
         numbers: Numbers::Unknown(JointModel::Full.parametrisation().unwrap()),
     };
     Problem {

@@ -362,6 +362,7 @@ impl Reader<'_> {
             key: key.to_owned(),
             length_m,
             motions: self.motions,
+            is_placed: numbers.are_placed(self.motions),
             numbers,
         };
         Ok((link, scatter))

@@ -34,3 +34,18 @@ def measure(path, noise, averages, rng):
 def white(part):
     """Noise of the same density at all lines, in parts of the r.m.s. of each function."""
     return lambda H: part * np.sqrt(np.mean(np.abs(H) ** 2, axis=2, keepdims=True))
+
+
+def coloured(part):
+    """The same with a density that goes up and down twenty times over the lines."""
+
+    def noise(H):
+        along = np.linspace(0, 1, H.shape[2])
+        return white(part)(H) * np.exp(1.5 * np.sin(5 * np.pi * along))
+
+    return noise
+
+
+def of_values(part):
+    """Noise in parts of each value."""
+    return lambda H: part * np.abs(H)

@@ -18,8 +18,21 @@ use crate::transformations::Transformations;
 pub enum Level {
     /// This part of each function's r.m.s.
     Relative(f64),
+    /// As the coherence of each function tells it, line by line.
+    OfCoherence,
     /// As large as the residuals of each function.
     OfResiduals,
+}
+
+impl Level {
+    /// Whether it is known before anything is found, so that χ² tells something.
+    #[must_use]
+    pub fn is_known(self) -> bool {
+        match self {
+            Self::Relative(_) | Self::OfCoherence => true,
+            Self::OfResiduals => false,
+        }
+    }
 }
 
 /// One measured function of the assembly.
@@ -31,6 +44,8 @@ pub(crate) struct Observed {
     pub(crate) values: Vec<Complex64>,
     /// Deviation of its noise at each line over that of all; empty where all lines have the same.
     pub(crate) uneven: Vec<f64>,
+    /// Deviation of its noise over all lines, where coherence tells it.
+    pub(crate) told: Option<f64>,
 }
 
 impl Observed {
@@ -40,6 +55,7 @@ impl Observed {
             at,
             values,
             uneven: Vec::new(),
+            told: None,
         }
     }
 
@@ -95,6 +111,10 @@ impl Problem {
             responses: side.responses.clone(),
             references: side.references.clone(),
             lines: kept.iter().map(|&line| side.lines[line].clone()).collect(),
+            noise: match side.noise.is_empty() {
+                true => Vec::new(),
+                false => kept.iter().map(|&line| side.noise[line].clone()).collect(),
+            },
             interfaces: side.interfaces.clone(),
             anew: side.anew,
         };
@@ -105,6 +125,7 @@ impl Problem {
                 true => Vec::new(),
                 false => kept.iter().map(|&line| one.uneven[line]).collect(),
             },
+            told: one.told,
         };
         Self {
             sides: self.sides.each_ref().map(side),
@@ -115,6 +136,11 @@ impl Problem {
             wider: self.wider.clone(),
             balance: self.balance.clone(),
         }
+    }
+
+    /// Whether coherence tells the noise of all functions.
+    pub(crate) fn is_told(&self) -> bool {
+        self.observed.iter().all(|one| one.told.is_some())
     }
 
     /// Unknowns of the joints.

@@ -9,11 +9,11 @@ use crate::advice::{of_noise, of_zero_functions};
 use crate::error::SpatialError;
 use crate::fit::covariance;
 use crate::identification::Unknown;
-use crate::level::{relative_rms, sizes};
+use crate::level::{first, relative_rms, sizes};
 use crate::links::Sought;
 use crate::normal::Normal;
 use crate::numbers::{Numbers, deviations};
-use crate::problem::{Level, Problem};
+use crate::problem::Problem;
 use crate::reasons;
 use crate::search::{Searched, searched};
 use crate::settled::Settled;
@@ -91,11 +91,8 @@ impl ChainStudy {
             });
         }
         let rms = sizes(&problem);
-        let first = match self.level {
-            Level::Relative(part) => rms.iter().map(|rms| part * rms).collect(),
-            Level::OfResiduals => rms.clone(),
-        };
-        let is_stated = matches!(self.level, Level::Relative(_));
+        let first = first(&problem, self.level, &rms);
+        let is_stated = self.level.is_known();
         let Searched {
             fit,
             starts,

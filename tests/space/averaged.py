@@ -37,11 +37,11 @@ def white(part):
 
 
 def coloured(part):
-    """The same with a density that goes up and down twenty times over the lines."""
+    """The same with a density that is twenty times as large (r.m.s.) at some lines as at others."""
 
     def noise(H):
         along = np.linspace(0, 1, H.shape[2])
-        return white(part)(H) * np.exp(1.5 * np.sin(5 * np.pi * along))
+        return white(part)(H) * np.exp(1.5 * np.sin(2 * np.pi * along))
 
     return noise
 

@@ -39,7 +39,7 @@ impl Told {
         let lines = set.line_count();
         if window(lines, averages).is_none() {
             let remark = format!(
-                "coherence of {averages} averages at {lines} lines does not tell how large the noise is, and is not used"
+                "coherence does not tell how large the noise is, and is not used: it is that of {lines} lines with averages = {averages}"
             );
             return (None, Some(remark));
         }

@@ -121,7 +121,7 @@ impl SpatialIdentification {
         };
         let substructures = match (&study.noise, &self.substructures) {
             ([a, b], Some(found)) => format!(
-                "noise of {} of a and {} of b taken into account, {} lines left out where it moves too much",
+                "noise of the substructures taken into account (a: {}; b: {}), {} lines left out where it moves too much",
                 a.in_words(),
                 b.in_words(),
                 found.lines_left_out

@@ -129,7 +129,8 @@ impl SpatialStudy {
         result.warnings.extend(richer.iter().map(Richer::warning));
         result.warnings.extend(lossy::warning(further));
         result.warnings.extend(massive::warning(further));
-        result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
+        result.reasons_against =
+            result.reasons(self.level, best.has_converged && alone.has_converged);
         result.reasons_against.extend(of_rest);
         result.reasons_against.extend(reasons::of_rivals(*rivals));
         let of_energy = match lossy::is_lossy(further) {

@@ -67,8 +67,9 @@ impl PartNoise {
     pub(crate) fn in_words(&self) -> String {
         let part = percent(self.relative);
         match self.by {
+            _ if self.is_none() => "none".to_owned(),
             SaidBy::OneLevel => format!("{part} of each value"),
-            SaidBy::Coherence => format!("about {part}, as coherence tells it line by line,"),
+            SaidBy::Coherence => format!("as coherence tells it line by line, about {part}"),
         }
     }
 

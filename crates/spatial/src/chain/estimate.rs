@@ -13,7 +13,7 @@ use crate::level::{first, relative_rms, sizes};
 use crate::links::Sought;
 use crate::normal::Normal;
 use crate::numbers::{Numbers, deviations};
-use crate::problem::Problem;
+use crate::problem::{Level, Problem};
 use crate::reasons;
 use crate::search::{Searched, searched};
 use crate::settled::Settled;
@@ -111,7 +111,7 @@ impl ChainStudy {
         let freedom = (2 * functions * lines - count) as f64;
         let reduced_chi_squared = is_stated.then_some(best.cost / freedom);
         // of a joint that does not explain the functions nothing is said about the part between
-        let explains = reasons::of_noise(reduced_chi_squared).is_none();
+        let explains = reasons::of_noise(self.level, reduced_chi_squared).is_none();
         if explains && let Some(alike) = apart.iter().find(|pair| !pair.told.is_told()) {
             return Err(SpatialError::NotToldApart {
                 joints: alike.joints.clone(),
@@ -147,7 +147,7 @@ impl ChainStudy {
                 .collect(),
             reasons_against: Vec::new(),
         };
-        found.reasons_against = found.reasons(best.has_converged);
+        found.reasons_against = found.reasons(self.level, best.has_converged);
         let more = reasons::of_rivals(rivals).into_iter();
         let more = more.chain(of_energy.into_iter().flatten());
         found.reasons_against.extend(more);
@@ -172,9 +172,9 @@ impl ChainStudy {
 }
 
 impl ChainIdentification {
-    fn reasons(&self, has_converged: bool) -> Vec<String> {
+    fn reasons(&self, level: Level, has_converged: bool) -> Vec<String> {
         let mut reasons = reasons::of_search(has_converged, self.relative_rms);
-        reasons.extend(reasons::of_noise(self.reduced_chi_squared));
+        reasons.extend(reasons::of_noise(level, self.reduced_chi_squared));
         for pair in &self.apart {
             let growth = pair.told.median_growth().into_iter().fold(0.0, f64::max);
             let most = if has_converged {

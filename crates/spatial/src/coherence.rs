@@ -2,8 +2,8 @@
 //!
 //! The variance that γ² and n averages give is what is left of the response, and has 2 (n − 1) degrees of freedom: it does not
 //! depend on the error of the function, so that it biases nothing, but it scatters. An estimate that is weighed by it leans on the
-//! lines where it happens to be small. Deviations are then too short by √((n − 3)/(n − 2)), of four averages without limit. Noise
-//! of neighbouring lines is alike, so that as many of them are taken together as tell it well enough.
+//! lines where it happens to be small, and deviations are too short: by √((n − 3)/n), so that of three averages they say nothing.
+//! Noise of neighbouring lines is alike, so that as many of them are taken together as tell it well enough.
 
 use bolted_joint_frf::{Dof, FrfSet};
 use bolted_joint_identify::variances_by_coherence;
@@ -11,7 +11,7 @@ use bolted_joint_identify::variances_by_coherence;
 use crate::level::root_mean_square;
 use crate::problem::{Level, Observed};
 
-/// Pairs of degrees of freedom that tell a variance well enough: deviations are short by 3 % at most.
+/// Pairs of degrees of freedom N that tell a variance well enough: deviations are short by √((N − 2)/(N − 1)), 3 % at most.
 const ENOUGH: f64 = 20.0;
 /// Those without which it is not told at all.
 const FEWEST: f64 = 4.0;

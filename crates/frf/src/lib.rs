@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
+mod beside;
 mod coherence;
 mod counted;
 mod csv;

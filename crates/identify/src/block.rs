@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use num_complex::Complex64;
 
+use super::by_coherence::variances_by_coherence;
 use super::layout::Place;
 use super::lines::Lines;
 use super::noise::{Floor, Noise, Of};
@@ -54,9 +55,6 @@ pub(super) struct Block {
 
 /// No measurement is taken for better than that: its reciprocal is a number.
 const LEAST_VARIANCE: f64 = 1e-300;
-/// A measured |H|² counts for at least this part of the smaller one beside it: a value that got lost between others is not
-/// exact for that. Noise alone is hardly ever so small.
-const LEAST_OF_NEIGHBOURS: f64 = 1e-6;
 
 impl Block {
     /// The `chosen` ones of `lines`, whose joint is number `joint` of those that are sought.
@@ -257,27 +255,12 @@ fn interleaved(functions: Vec<Vec<Complex64>>, lines: usize) -> Vec<Complex64> {
 }
 
 /// σ² of each place of each entry over the lines, where it is known.
-///
-/// It is σ²/|H|² of coherence times the |H|² of the same measurement, which is Syy(1 − γ²)/(n Sff): what is left of the
-/// response, and independent of the error of H₁. Times a computed |H|² a value that errs upwards would have a smaller variance
-/// than one that errs downwards, and every estimate would err upwards.
 fn variances(lines: &Lines, places: &[Vec<(usize, usize)>]) -> Option<Vec<Vec<Vec<f64>>>> {
     let relative = lines.relative_variance.as_ref()?;
     let of_place = |&place: &(usize, usize)| {
         let index = lines.measured.iter().position(|&other| other == place)?;
         let power = |line: usize| lines.assembly[line][place].norm_sqr();
-        let absolute = |(line, relative): (usize, &f64)| {
-            let beside = [line.checked_sub(1), Some(line + 1)];
-            let beside = beside.into_iter().flatten();
-            let beside = beside
-                .filter(|&line| line < lines.assembly.len())
-                .map(power);
-            let least = LEAST_OF_NEIGHBOURS * beside.fold(f64::INFINITY, f64::min);
-            let least = if least.is_finite() { least } else { 0.0 };
-            relative * power(line).max(least)
-        };
-        let relative = relative.get(index)?.iter().enumerate();
-        Some(relative.map(absolute).collect())
+        Some(variances_by_coherence(relative.get(index)?, power))
     };
     let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
     places.iter().map(of_entry).collect()

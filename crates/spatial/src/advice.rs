@@ -31,7 +31,7 @@ impl SpatialIdentification {
 pub(crate) fn of_noise(level: Level, reduced_chi_squared: Option<f64>) -> Option<String> {
     match level {
         Level::Relative(part) => overstated_noise(part, reduced_chi_squared?),
-        Level::OfResiduals => None,
+        Level::OfCoherence | Level::OfResiduals => None,
     }
 }
 

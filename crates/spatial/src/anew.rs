@@ -149,7 +149,7 @@ impl SpatialStudy {
     fn is_explained(&self, found: &Found) -> Result<bool, SpatialError> {
         let left = found.joint.squares / found.joint.numbers as f64;
         let by_level = match self.level {
-            Level::Relative(_) => left < EXPLAINED,
+            Level::Relative(_) | Level::OfCoherence => left < EXPLAINED,
             Level::OfResiduals => true,
         };
         let by_motion =

@@ -12,11 +12,11 @@ use crate::further::{Further, Score, scores};
 use crate::hidden::{self, Beside, searched_beside};
 use crate::identification::SpatialIdentification;
 use crate::lack;
-use crate::level::{relative_rms, sizes};
+use crate::level::{first, relative_rms, sizes};
 use crate::misfits::Misfit;
 use crate::normal::{Deviations, Normal, cost, squares_of_errors};
 use crate::outcome::{LARGEST_RESIDUAL, undetermined};
-use crate::problem::{Level, Problem, Unknowns};
+use crate::problem::{Problem, Unknowns};
 use crate::richer::{Richer, richer};
 use crate::search::{Extent, SEARCHED, Searched, searched};
 use crate::settled::Settled;
@@ -25,9 +25,6 @@ use crate::together::together;
 
 /// Rounds in which the level of the noise follows the residuals, and the budget what it does not allow for.
 const ROUNDS: usize = 5;
-
-/// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
-const NOISE: f64 = 0.01;
 
 /// Lines of the joint before all take part, where the substructures have noise.
 const FEW: usize = 200;
@@ -164,8 +161,8 @@ impl SpatialStudy {
 
     fn begun(&self, rms: &Deviations, extent: Extent<'_>) -> Result<Option<Begun>, SpatialError> {
         let problem = &self.problem;
-        let level = self.first_level(rms);
-        let is_stated = matches!(self.level, Level::Relative(_));
+        let level = first(&self.problem, self.level, rms);
+        let is_stated = self.level.is_known();
         let own = match (self.has_noise(), problem.error_count()) {
             (true, _) => searched_beside(problem, &level, &self.noise, extent)?,
             (false, 0) => {
@@ -176,15 +173,6 @@ impl SpatialStudy {
             (false, _) => together(problem, &level, is_stated, extent)?,
         };
         Ok(own.map(Begun))
-    }
-
-    /// The level of each function's noise, as far as it is known before anything was found.
-    fn first_level(&self, rms: &Deviations) -> Deviations {
-        match (self.level, self.problem.error_count()) {
-            (Level::Relative(part), _) => parts(rms, part),
-            (Level::OfResiduals, 0) => rms.clone(),
-            (Level::OfResiduals, _) => parts(rms, NOISE),
-        }
     }
 
     /// What fits best near there.
@@ -203,15 +191,15 @@ impl SpatialStudy {
             starts,
             rivals,
         }) = begun;
-        let is_stated = matches!(self.level, Level::Relative(_));
-        let first = self.first_level(rms);
+        let is_stated = self.level.is_known();
+        let first_level = first(&self.problem, self.level, rms);
         let Settled {
             problem,
             best,
             estimated,
             level,
             of_values,
-        } = Settled::of(&self.problem, fit, (&first, is_stated), rms)?;
+        } = Settled::of(&self.problem, fit, (&first_level, is_stated), rms)?;
         let problem = &*problem;
         let errors = problem.error_count();
         // all lines, with the errors of the set-up as they were found
@@ -261,7 +249,7 @@ impl SpatialStudy {
     /// Where the substructures' functions have noise.
     fn beside_noise(&self, rms: &Deviations, begun: Begun) -> Result<Found, SpatialError> {
         let problem = &self.problem;
-        let level = self.first_level(rms);
+        let level = first(&self.problem, self.level, rms);
         let noise = &self.noise;
         let Begun(Searched {
             fit: best,
@@ -333,11 +321,6 @@ impl SpatialStudy {
             of_values: 0.0,
         })
     }
-}
-
-/// A part of each r.m.s.
-fn parts(rms: &Deviations, part: f64) -> Deviations {
-    rms.iter().map(|rms| part * rms).collect()
 }
 
 /// The joint's unknowns of all.

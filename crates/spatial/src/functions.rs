@@ -1,8 +1,9 @@
 //! Reads files of functions with what a study says of them.
 
-use bolted_joint_frf::{FrfReading, FrfSet, Quantity, ReadOptions, read_frfs};
+use bolted_joint_frf::{FrfError, FrfReading, FrfSet, Quantity, ReadOptions, read_frfs};
 use bolted_joint_study::{LineChoice, Paths, StudyError, UnitsTable};
 
+use crate::coherence::Told;
 use crate::study::Reader;
 
 /// Frequencies that are the same, in parts.
@@ -11,13 +12,22 @@ const SAME: f64 = 1e-5;
 /// A file of functions, and what the study says of it.
 pub(crate) struct FileOfFunctions<'t> {
     pub(crate) paths: &'t Paths,
+    pub(crate) coherence: Option<&'t Paths>,
+    pub(crate) averages: Option<f64>,
     pub(crate) quantity: Option<Quantity>,
     pub(crate) units: Option<&'t UnitsTable>,
 }
 
+/// Functions at the lines that are used, and their noise, where coherence tells it.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    pub(crate) set: FrfSet,
+    pub(crate) told: Option<Told>,
+}
+
 /// What was read of it, and what had to be assumed or is missing.
 pub(crate) struct Functions {
-    pub(crate) set: FrfSet,
+    pub(crate) measured: Measured,
     pub(crate) assumed: Vec<String>,
 }
 
@@ -28,28 +38,39 @@ impl Reader<'_> {
         file: &FileOfFunctions<'_>,
         lines: &LineChoice,
     ) -> Result<Functions, StudyError> {
+        if let Some(found) = file.averages {
+            let key = format!("{key}.averages");
+            (self.study).within(&key, found, 1.0..=f64::MAX, "a number of at least 1")?;
+        }
         let options = ReadOptions {
             quantity: file.quantity,
             units: (self.study).units(format_args!("{key}.units"), file.units)?,
+            averages: file.averages,
             ..ReadOptions::default()
         };
-        let readings = (file.paths.iter())
-            .map(|path| read_frfs(self.study.resolved(path), &options))
-            .collect::<Result<_, _>>();
-        let reading = readings
+        let read = |paths: &Paths| -> Result<Vec<FrfReading>, FrfError> {
+            let paths = paths.iter();
+            let all = paths.map(|path| read_frfs(self.study.resolved(path), &options));
+            all.collect()
+        };
+        let of_coherence = || file.coherence.map_or_else(|| Ok(Vec::new()), read);
+        let (set, mut assumed) = read(file.paths)
             .and_then(FrfReading::joined)
+            .and_then(|functions| functions.into_set_beside(of_coherence()?))
             .map_err(StudyError::of_file)?;
-        let warnings = [reading.units_warning(), reading.phase_warning()];
-        let assumed = warnings.into_iter().flatten().collect();
-        let set = reading.into_set().map_err(StudyError::of_file)?;
+        let refused = |source| {
+            let key = format!("{key}.frf");
+            StudyError::model(self.study.path(), Some(&key), source)
+        };
         let [from_hz, to_hz] = lines.range_hz;
-        let set = set
-            .restricted_to(from_hz, to_hz)
-            .and_then(|set| set.thinned(&lines.bands_hz, lines.every))
-            .map_err(|source| {
-                StudyError::model(self.study.path(), Some(&format!("{key}.frf")), source)
-            })?;
-        Ok(Functions { set, assumed })
+        let in_range = set.restricted_to(from_hz, to_hz).map_err(refused)?;
+        let set = in_range
+            .thinned(&lines.bands_hz, lines.every)
+            .map_err(refused)?;
+        let (told, remark) = Told::of(in_range, set.frequency_hz());
+        assumed.extend(remark.map(|remark| format!("{key}: {remark}")));
+        let measured = Measured { set, told };
+        Ok(Functions { measured, assumed })
     }
 
     pub(crate) fn same_lines(

@@ -121,9 +121,9 @@ impl SpatialIdentification {
         };
         let substructures = match (&study.noise, &self.substructures) {
             ([a, b], Some(found)) => format!(
-                "noise of {} and {} of each value of a and of b taken into account, {} lines left out where it moves too much",
-                percent(a.relative),
-                percent(b.relative),
+                "noise of the substructures taken into account (a: {}; b: {}), {} lines left out where it moves too much",
+                a.in_words(),
+                b.in_words(),
                 found.lines_left_out
             ),
             _ => "the substructures' functions taken as exact".to_owned(),
@@ -217,6 +217,7 @@ fn residual(relative_rms: f64, lines: usize, reduced_chi_squared: Option<f64>) -
 fn words(level: Level) -> String {
     match level {
         Level::Relative(part) => format!("noise of {} of each function's r.m.s.", percent(part)),
+        Level::OfCoherence => "the noise that coherence and averages tell".to_owned(),
         Level::OfResiduals => "noise as large as each function's residual".to_owned(),
     }
 }

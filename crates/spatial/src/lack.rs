@@ -3,7 +3,8 @@
 //!
 //! Where no noise is stated its level is that of the residuals, and χ² cannot tell. So residuals over the channels of an interface are
 //! split into what a rigid motion explains and what none does, and those over its impacts likewise: for noise both are alike by their
-//! degrees of freedom. Hits beside those of the other test, masses of bolts or noise of the parts are in the first alone (a test of
+//! degrees of freedom. Where coherence tells the noise of each value, values count by it: one that is known worst would stand for all.
+//! Hits beside those of the other test, masses of bolts or noise of the parts are in the first alone (a test of
 //! lack of fit, with the second as pure error).
 
 use bolted_joint_virtual_point::Role;
@@ -76,21 +77,37 @@ fn ratios(
         a.responses.len() + b.responses.len(),
         a.references.len() + b.references.len(),
     ];
-    // residuals in parts of each function's r.m.s., and that; none where nothing was measured
-    let mut of_size = DMatrix::from_element(size[0], size[1], f64::NAN);
-    for (one, rms) in problem.observed.iter().zip(rms) {
-        of_size[(one.at[0], one.at[1])] = *rms;
-    }
+    // residuals in parts of each function's r.m.s., or of its noise at a line where that is told; none where nothing was measured
+    let is_told = problem.is_told();
+    let sizes_at = |line: usize| {
+        let mut sizes = DMatrix::from_element(size[0], size[1], f64::NAN);
+        for (one, rms) in problem.observed.iter().zip(rms) {
+            let told = one.told.filter(|_| is_told);
+            let own = told.map_or(*rms, |level| level * one.uneven(line));
+            sizes[(one.at[0], one.at[1])] = own;
+        }
+        sizes
+    };
+    let splits_of = |sizes: &DMatrix<f64>| {
+        [Role::Channel, Role::Impact].map(|role| splits(problem, role, sizes))
+    };
+    let mut of_size = sizes_at(0);
+    let mut splits = splits_of(&of_size);
     let mut sums = [[0.0; 2]; 2];
     let mut squares = 0.0;
-    let splits = [Role::Channel, Role::Impact].map(|role| splits(problem, role, &of_size));
     for line in 0..problem.frequency_hz.len() {
+        if is_told && line > 0 {
+            of_size = sizes_at(line);
+            splits = splits_of(&of_size);
+        }
         let computed = assembled.line(line)?.functions;
         let mut left = DMatrix::from_element(size[0], size[1], Complex64::ZERO);
         for ((one, computed), rms) in problem.observed.iter().zip(computed).zip(rms) {
-            left[(one.at[0], one.at[1])] = (one.values[line] - computed) / *rms;
+            let at = (one.at[0], one.at[1]);
+            let residual = one.values[line] - computed;
+            left[at] = residual / of_size[at];
+            squares += (residual / *rms).norm_sqr();
         }
-        squares += left.norm_squared();
         for (role, splits) in splits.iter().enumerate() {
             for split in splits {
                 let own = match role {

@@ -6,7 +6,7 @@ use crate::assembled::Assembled;
 use crate::error::SpatialError;
 use crate::normal::Deviations;
 use crate::parallel::over_lines;
-use crate::problem::{Observed, Problem, Unknowns};
+use crate::problem::{Level, Observed, Problem, Unknowns};
 
 /// Level of a function whose residual is nothing, in parts of its r.m.s.: rounding.
 const LEAST_LEVEL: f64 = 1e-12;
@@ -16,6 +16,23 @@ const LEAST_MEASURED: f64 = 1e-4;
 
 /// Σ |computed|² in parts of Σ |residual|² at least: a structure that does not move makes functions zero that were measured.
 const LEAST_COMPUTED: f64 = 1e-12;
+
+/// Noise with which the errors of the set-up are searched where none is stated, in parts of the functions' r.m.s.
+const NOISE: f64 = 0.01;
+
+/// The level of each function's noise, as far as it is known before anything was found; `rms` are the functions' own.
+pub(crate) fn first(problem: &Problem, level: Level, rms: &Deviations) -> Deviations {
+    let parts = |part: f64| rms.iter().map(|rms| part * rms).collect();
+    match (level, problem.error_count()) {
+        (Level::Relative(part), _) => parts(part),
+        (Level::OfCoherence, _) => {
+            let all = problem.observed.iter().zip(rms);
+            all.map(|(one, rms)| one.told.unwrap_or(*rms)).collect()
+        }
+        (Level::OfResiduals, 0) => rms.clone(),
+        (Level::OfResiduals, _) => parts(NOISE),
+    }
+}
 
 /// R.m.s. of each observed function.
 pub(crate) fn sizes(problem: &Problem) -> Deviations {

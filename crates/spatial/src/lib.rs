@@ -13,6 +13,8 @@ mod anew;
 mod assembled;
 mod budget;
 mod chain;
+mod coherence;
+mod coherent_parts;
 mod compliant;
 mod consistency;
 mod contradicted;

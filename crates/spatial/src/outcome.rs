@@ -8,7 +8,7 @@ use crate::estimate::Found;
 use crate::fits::strongest;
 use crate::identification::{Group, SpatialIdentification, Substructures};
 use crate::lack;
-use crate::level::{relative_rms, sizes};
+use crate::level::{first, relative_rms, sizes};
 use crate::lossy;
 use crate::massive;
 use crate::normal::squares_of_errors;
@@ -81,7 +81,7 @@ impl SpatialStudy {
         // noise of the substructures hides what is left of fewer functions
         let of_all = alone.squares / freedom;
         let reduced = (alone.left_in_assembly).map_or(of_all, |left| left.max(of_all));
-        let reduced_chi_squared = matches!(self.level, Level::Relative(_)).then_some(reduced);
+        let reduced_chi_squared = self.level.is_known().then_some(reduced);
         let left_out = problem.frequency_hz.len() - lines;
         let mut result = SpatialIdentification {
             unknowns,
@@ -129,7 +129,8 @@ impl SpatialStudy {
         result.warnings.extend(richer.iter().map(Richer::warning));
         result.warnings.extend(lossy::warning(further));
         result.warnings.extend(massive::warning(further));
-        result.reasons_against = result.reasons(best.has_converged && alone.has_converged);
+        result.reasons_against =
+            result.reasons(self.level, best.has_converged && alone.has_converged);
         result.reasons_against.extend(of_rest);
         result.reasons_against.extend(reasons::of_rivals(*rivals));
         let of_energy = match lossy::is_lossy(further) {
@@ -162,12 +163,11 @@ impl SpatialStudy {
 impl SpatialStudy {
     /// Deviation of the noise of each function, 0 where it is not stated.
     fn noise_of_functions(&self) -> Vec<f64> {
-        let sizes = sizes(&self.problem).into_iter();
-        let part = match self.level {
-            Level::Relative(part) => part,
-            Level::OfResiduals => 0.0,
-        };
-        sizes.map(|size| part * size).collect()
+        let sizes = sizes(&self.problem);
+        match self.level {
+            Level::Relative(_) | Level::OfCoherence => first(&self.problem, self.level, &sizes),
+            Level::OfResiduals => vec![0.0; sizes.len()],
+        }
     }
 }
 

@@ -5,15 +5,27 @@ use bolted_joint_identify::ShownLevel;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use crate::level::root_mean_square;
 use crate::odd::median;
 use crate::problem::{Level, Problem};
 use crate::side::Side;
 
+/// What noise of a substructure is said by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SaidBy {
+    /// One number for all values: of the study, or as the functions show it from line to line.
+    OneLevel,
+    /// The coherence of each function, line by line: [`Side`] has it.
+    Coherence,
+}
+
 /// Noise of the functions of a substructure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartNoise {
-    /// In parts of each value.
+    /// In parts of each value; where coherence tells it, of the r.m.s. of the median function.
     pub relative: f64,
+    /// By what it is said.
+    pub(crate) by: SaidBy,
     /// Beside it, m/N, of each response and reference.
     pub(crate) floors: Option<DMatrix<f64>>,
 }
@@ -22,6 +34,7 @@ impl PartNoise {
     /// Of exact functions.
     pub const NONE: Self = Self {
         relative: 0.0,
+        by: SaidBy::OneLevel,
         floors: None,
     };
 
@@ -30,6 +43,33 @@ impl PartNoise {
         Self {
             relative,
             ..Self::NONE
+        }
+    }
+
+    /// As coherence tells it, if it does.
+    pub(crate) fn of_coherence(side: &Side) -> Option<Self> {
+        let (rows, columns) = side.noise.first()?.shape();
+        let of = |at: (usize, usize)| {
+            let noise = side.noise.iter().map(|line| line[at] * line[at]);
+            let values = side.lines.iter().map(|line| line[at].norm_sqr());
+            root_mean_square(noise) / root_mean_square(values)
+        };
+        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        let relative = median(places.map(of).collect()).filter(|&own| own > 0.0);
+        relative.map(|relative| Self {
+            relative,
+            by: SaidBy::Coherence,
+            floors: None,
+        })
+    }
+
+    /// How much of what.
+    pub(crate) fn in_words(&self) -> String {
+        let part = percent(self.relative);
+        match self.by {
+            _ if self.is_none() => "none".to_owned(),
+            SaidBy::OneLevel => format!("{part} of each value"),
+            SaidBy::Coherence => format!("as coherence tells it line by line, about {part}"),
         }
     }
 
@@ -64,7 +104,7 @@ impl Shown {
             return None;
         }
         let level = match level {
-            Level::Relative(_) => level,
+            Level::Relative(_) | Level::OfCoherence => level,
             Level::OfResiduals => Level::Relative(of_assembly(problem)?.typical),
         };
         let named = std::iter::zip(["a", "b"], &sides).filter_map(|(name, shown)| {
@@ -109,6 +149,7 @@ fn of_side(side: &Side, frequency_hz: &[f64]) -> Option<(ShownLevel, PartNoise)>
     let floors = functions.iter().map(floor);
     let noise = PartNoise {
         relative: shown.relative,
+        by: SaidBy::OneLevel,
         floors: Some(DMatrix::from_iterator(rows, columns, floors)),
     };
     Some((shown, noise))

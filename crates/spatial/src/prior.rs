@@ -238,6 +238,12 @@ impl Prior {
         Some(&wholes.weighted * inner)
     }
 
+    /// Numbers of what may be off as a whole.
+    pub(crate) fn whole_count(&self) -> usize {
+        let wholes = self.wholes.as_ref();
+        wholes.map_or(0, |wholes| wholes.variances.len())
+    }
+
     /// Variance of w η for weights w of all errors: wᵀ (D + V S Vᵀ) w.
     pub(crate) fn variance(&self, weights: &DVector<f64>) -> f64 {
         let own = weights.component_mul(weights).dot(&self.variances);

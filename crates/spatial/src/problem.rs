@@ -19,8 +19,21 @@ use crate::transformations::Transformations;
 pub enum Level {
     /// This part of each function's r.m.s.
     Relative(f64),
+    /// As the coherence of each function tells it, line by line.
+    OfCoherence,
     /// As large as the residuals of each function.
     OfResiduals,
+}
+
+impl Level {
+    /// Whether it is known before anything is found, so that χ² tells something.
+    #[must_use]
+    pub fn is_known(self) -> bool {
+        match self {
+            Self::Relative(_) | Self::OfCoherence => true,
+            Self::OfResiduals => false,
+        }
+    }
 }
 
 /// One measured function of the assembly.
@@ -32,6 +45,8 @@ pub(crate) struct Observed {
     pub(crate) values: Vec<Complex64>,
     /// Deviation of its noise at each line over that of all; empty where all lines have the same.
     pub(crate) uneven: Vec<f64>,
+    /// Deviation of its noise over all lines, where coherence tells it.
+    pub(crate) told: Option<f64>,
 }
 
 impl Observed {
@@ -41,6 +56,7 @@ impl Observed {
             at,
             values,
             uneven: Vec::new(),
+            told: None,
         }
     }
 
@@ -98,6 +114,10 @@ impl Problem {
             responses: side.responses.clone(),
             references: side.references.clone(),
             lines: kept.iter().map(|&line| side.lines[line].clone()).collect(),
+            noise: match side.noise.is_empty() {
+                true => Vec::new(),
+                false => kept.iter().map(|&line| side.noise[line].clone()).collect(),
+            },
             interfaces: side.interfaces.clone(),
             anew: side.anew,
         };
@@ -108,6 +128,7 @@ impl Problem {
                 true => Vec::new(),
                 false => kept.iter().map(|&line| one.uneven[line]).collect(),
             },
+            told: one.told,
         };
         Self {
             sides: self.sides.each_ref().map(side),
@@ -119,6 +140,11 @@ impl Problem {
             common: self.common,
             balance: self.balance.clone(),
         }
+    }
+
+    /// Whether coherence tells the noise of all functions.
+    pub(crate) fn is_told(&self) -> bool {
+        self.observed.iter().all(|one| one.told.is_some())
     }
 
     /// Unknowns of the joints.
@@ -152,7 +178,7 @@ impl Problem {
         self.error_counts().iter().sum()
     }
 
-    /// Those of them that are not exact.
+    /// Those of them that are not exact, and what may be off as a whole.
     pub(crate) fn open_error_count(&self) -> usize {
         let Some(tolerances) = &self.tolerances else {
             return 0;
@@ -168,7 +194,8 @@ impl Problem {
             });
             is_open.count()
         };
-        self.sides.iter().map(open).sum()
+        let own: usize = self.sides.iter().map(open).sum();
+        own + self.prior().whole_count()
     }
 
     /// All unknowns.

@@ -5,6 +5,7 @@ use bolted_joint_statistics::chi_squared_tail;
 use nalgebra::Matrix6;
 
 use crate::identification::{SpatialIdentification, Unknown};
+use crate::problem::Level;
 
 /// Squares of the errors of the set-up over those of the budget beyond which it does not hold.
 const BEYOND_BUDGET: f64 = 2.0;
@@ -25,10 +26,10 @@ const UNLIKELY: f64 = 1e-6;
 const NOT_PASSIVE: f64 = 1e-9;
 
 impl SpatialIdentification {
-    pub(crate) fn reasons(&self, has_converged: bool) -> Vec<String> {
+    pub(crate) fn reasons(&self, level: Level, has_converged: bool) -> Vec<String> {
         let mut reasons = of_search(has_converged, self.relative_rms);
         let of_level = self.reduced_chi_squared.filter(|_| !has_converged);
-        reasons.extend(of_level.and_then(of_stated_noise));
+        reasons.extend(of_level.and_then(|chi| of_small_noise(level, chi)));
         if let Some(used) = self.budget_used.filter(|&used| used > BEYOND_BUDGET) {
             reasons.push(format!(
                 "the errors of the set-up would be {:.1} times as large as the budget says: check positions, directions, signs and gains \
@@ -36,7 +37,7 @@ impl SpatialIdentification {
                 used.sqrt()
             ));
         }
-        reasons.extend(of_noise(self.reduced_chi_squared));
+        reasons.extend(of_noise(level, self.reduced_chi_squared));
         for (name, matrix) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
             if let Err(refused) = semidefinite(matrix)
                 && !is_excused(matrix)
@@ -50,7 +51,8 @@ impl SpatialIdentification {
 
 /// What else may be behind reasons of the search, of noise or of energy, where the parts are taken as exact.
 pub(crate) fn of_exact_parts() -> String {
-    "the functions of a and b are taken as exact: where they were measured, state the noise of all in noise.relative, noise.a and noise.b"
+    "the functions of a and b are taken as exact: where they were measured, state the noise of all in noise.relative, noise.a and noise.b, or \
+     name their coherence"
         .to_owned()
 }
 
@@ -82,11 +84,16 @@ pub(crate) fn of_search(has_converged: bool, relative_rms: f64) -> Vec<String> {
 }
 
 /// Of a search that noise does not confirm, where its level may be the reason.
-fn of_stated_noise(reduced_chi_squared: f64) -> Option<String> {
+fn of_small_noise(level: Level, reduced_chi_squared: f64) -> Option<String> {
+    let advice = match level {
+        Level::OfCoherence => "if there were fewer independent averages than stated, state these",
+        Level::Relative(_) | Level::OfResiduals => {
+            "if the noise is larger than stated, state it as it is"
+        }
+    };
     (REMARKABLE..=MISFIT).contains(&reduced_chi_squared).then(|| {
         format!(
-            "χ² over degrees of freedom is {reduced_chi_squared:.2}: if the noise is larger than stated, state it as it is, so that minima can \
-             be told apart by it"
+            "χ² over degrees of freedom is {reduced_chi_squared:.2}: {advice}, so that minima can be told apart by it"
         )
     })
 }
@@ -101,10 +108,14 @@ pub(crate) fn of_rivals(rivals: usize) -> Option<String> {
 }
 
 /// Of noise that is stated.
-pub(crate) fn of_noise(reduced_chi_squared: Option<f64>) -> Option<String> {
+pub(crate) fn of_noise(level: Level, reduced_chi_squared: Option<f64>) -> Option<String> {
     let chi = reduced_chi_squared.filter(|&chi| chi > MISFIT)?;
+    let noise = match level {
+        Level::OfCoherence => "noise as coherence tells it",
+        Level::Relative(_) | Level::OfResiduals => "the stated noise",
+    };
     Some(format!(
-        "χ² over degrees of freedom is {chi:.2}: the stated noise does not explain the residuals, and the deviations are too small"
+        "χ² over degrees of freedom is {chi:.2}: {noise} does not explain the residuals, and the deviations are too small"
     ))
 }
 

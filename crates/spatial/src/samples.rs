@@ -53,6 +53,7 @@ fn part(interfaces: usize, seed: &mut u32) -> Side {
         responses: vec![dof; rows + 1],
         references: vec![dof; columns],
         lines,
+        noise: Vec::new(),
         interfaces,
         anew: Anew::default(),
     }

@@ -49,7 +49,9 @@ impl<'p> Settled<'p> {
         let mut problem = Cow::Borrowed(problem);
         let mut end = at_more_lines(&problem, fit, first, rms)?;
         let mut of_values = 0.0;
-        for _ in 0..UNEVEN {
+        // where coherence tells the noise of each line, residuals are not asked
+        let rounds = if problem.is_told() { 0 } else { UNEVEN };
+        for _ in 0..rounds {
             let told = match end.best.has_converged {
                 true => uneven::of(&problem, &end.best.unknowns)?,
                 false => None,

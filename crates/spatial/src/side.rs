@@ -23,6 +23,8 @@ pub(crate) struct Side {
     pub(crate) references: Vec<Dof>,
     /// Receptances, responses × references, at each line.
     pub(crate) lines: Vec<DMatrix<Complex64>>,
+    /// Deviation of the noise of each, where coherence tells it; else empty.
+    pub(crate) noise: Vec<DMatrix<f64>>,
     /// One for each joint, in their order.
     pub(crate) interfaces: Vec<Placed>,
     pub(crate) anew: Anew,

@@ -12,9 +12,11 @@ use bolted_joint_virtual_point::Sensor;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::chain::ChainStudy;
+use crate::coherence::level_of;
+use crate::functions::Measured;
 use crate::level::size;
 use crate::links::Links;
-use crate::part_noise::{PartNoise, Shown};
+use crate::part_noise::{PartNoise, SaidBy, Shown};
 use crate::problem::{Level, Observed, Problem};
 use crate::side::{MOTIONS, Side};
 use crate::tables::{JointTable, ModelName, NoiseTable, SensorTable, StudyFile};
@@ -83,7 +85,8 @@ impl SpatialStudy {
             motions: chain.motions,
         };
         let (sides, link) = chain.two_sides()?;
-        let (observed, zero_functions) = reader.observed(&sides, chain.assembly.as_ref())?;
+        let (mut observed, zero_functions) = reader.observed(&sides, chain.assembly.as_ref())?;
+        let (level, _) = level_of(chain.stated, &mut observed);
         let frequency_hz = chain.problem.frequency_hz.clone();
         let mut assumed = chain.assumed.clone();
         assumed.extend(chain.at_known_joints());
@@ -91,11 +94,14 @@ impl SpatialStudy {
             chain
                 .assembly
                 .as_ref()
-                .and_then(|assembly| unmatched(&sides, &observed, assembly)),
+                .and_then(|assembly| unmatched(&sides, &observed, &assembly.set)),
         );
         let budget = reader.budget(&file.budget, &sides, &chain.parts)?;
         let may_show = [(&file.a, file.noise.a), (&file.b, file.noise.b)]
             .map(|(part, stated)| part.frf.is_some() && stated.is_none());
+        let is_stated = matches!(chain.stated, Level::Relative(_));
+        let of_parts = chain.parts.iter().map(|part| part.told.is_some());
+        let has_coherence: Vec<bool> = of_parts.collect();
         let own = Self {
             motions: chain.motions,
             path: study.path().to_owned(),
@@ -103,7 +109,7 @@ impl SpatialStudy {
             model: chain.models[0].clone(),
             notes: file.notes,
             files: chain.files,
-            level: chain.level,
+            level,
             noise: chain.noise,
             zero_functions,
             assumed,
@@ -122,14 +128,18 @@ impl SpatialStudy {
         };
         // a chain takes the noise of the assembly's functions alone
         Ok(match file.joint.len() {
-            1 => own.with_shown_noise(may_show),
+            1 => own
+                .with_noise_by_coherence(&has_coherence, [file.noise.a, file.noise.b])
+                .with_shown_noise(may_show, is_stated),
             _ => own,
         })
     }
 
     /// With noise that the functions of substructures show, where these `may_show` it since the study states none.
-    fn with_shown_noise(mut self, may_show: [bool; 2]) -> Self {
-        let is_stated = matches!(self.level, Level::Relative(_));
+    /// A level of the assembly that `is_stated` is that over all lines.
+    fn with_shown_noise(mut self, may_show: [bool; 2], is_stated: bool) -> Self {
+        let is_told = |n: usize| self.noise[n].by == SaidBy::Coherence;
+        let may_show = [0, 1].map(|n| may_show[n] && !is_told(n));
         if let Some(shown) = Shown::of(&self.problem, self.level, may_show) {
             self.level = shown.level;
             for (own, shown) in self.noise.iter_mut().zip(shown.noise) {
@@ -139,7 +149,7 @@ impl SpatialStudy {
             }
             self.assumed.push(shown.note);
         }
-        if self.has_noise() {
+        if self.has_noise() && self.level != Level::OfCoherence {
             self.uneven = Uneven::shown(&self.problem, is_stated);
         }
         self
@@ -205,13 +215,17 @@ pub(crate) fn motions(study: &StudyText, list: Option<&[String]>) -> Result<Moti
 
 impl Reader<'_> {
     /// Noise of the substructures.
-    pub(crate) fn noise(&self, table: &NoiseTable) -> Result<[PartNoise; 2], StudyError> {
+    pub(crate) fn noise(
+        &self,
+        table: &NoiseTable,
+        level: Level,
+    ) -> Result<[PartNoise; 2], StudyError> {
         let of = |key: &str, given: Option<f64>| {
             let Some(part) = given.filter(|&part| part != 0.0) else {
                 return Ok(PartNoise::NONE);
             };
             self.study.ensure(
-                table.relative.is_some(),
+                level.is_known(),
                 key,
                 format_args!("{part} without noise.relative"),
                 "the noise of the assembly's functions beside that of the substructures",
@@ -331,7 +345,7 @@ impl Reader<'_> {
     pub(crate) fn observed(
         &self,
         sides: &[Side; 2],
-        assembly: Option<&FrfSet>,
+        assembly: Option<&Measured>,
     ) -> Result<(Vec<Observed>, usize), StudyError> {
         let [a, b] = sides;
         let places = |first: &[Dof], second: &[Dof]| -> Vec<(usize, Dof)> {
@@ -342,11 +356,17 @@ impl Reader<'_> {
         let mut observed = Vec::new();
         for &(row, response) in &rows {
             for &(column, reference) in &columns {
-                let found = assembly.map(|all| all.receptance(response, reference));
+                let found = assembly.map(|all| all.set.receptance(response, reference));
                 // the transposed function is another datum only where it was measured
                 let Some(Ok(function)) = found else { continue };
                 if !function.is_reciprocal() {
-                    observed.push(Observed::new([row, column], function.values().to_vec()));
+                    let one = Observed::new([row, column], function.values().to_vec());
+                    let told = assembly.and_then(|all| all.told.as_ref());
+                    let noise = told.and_then(|told| told.deviations(response, reference));
+                    observed.push(match noise {
+                        Some(noise) => one.with_noise(&noise),
+                        None => one,
+                    });
                 }
             }
         }

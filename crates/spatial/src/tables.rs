@@ -53,6 +53,10 @@ fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointTable>,
 pub(crate) struct PartTable {
     /// Measured or computed functions.
     pub(crate) frf: Option<Paths>,
+    /// Coherences of the functions, where they are in other files.
+    pub(crate) coherence: Option<Paths>,
+    /// Averages behind every function.
+    pub(crate) averages: Option<f64>,
     /// What `frf` holds, where the file does not say.
     pub(crate) quantity: Option<Quantity>,
     pub(crate) units: Option<UnitsTable>,
@@ -188,6 +192,10 @@ pub(crate) struct ImpactTable {
 pub(crate) struct AssemblyTable {
     /// Left out while nothing is measured.
     pub(crate) frf: Option<Paths>,
+    /// Coherences of the functions, where they are in other files.
+    pub(crate) coherence: Option<Paths>,
+    /// Averages behind every function.
+    pub(crate) averages: Option<f64>,
     /// What `frf` holds, where the file does not say.
     pub(crate) quantity: Option<Quantity>,
     pub(crate) units: Option<UnitsTable>,

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use bolted_joint::export::Timestamp;
 use bolted_joint::identify::space::{
-    Change, Misfit, MisfitCause, Role, SetUpError, SideConsistency, SpatialIdentification,
+    Change, Level, Misfit, MisfitCause, Role, SetUpError, SideConsistency, SpatialIdentification,
     SpatialStudy, Unknown, joints_sought,
 };
 use bolted_joint::report::{SpatialReport, spatial_figure};
@@ -231,7 +231,15 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
         );
     }
     if let Some(chi) = found.reduced_chi_squared {
-        let _ = writeln!(text, "χ² over degrees of freedom {}", number(chi, 3));
+        let beside = match study.level {
+            Level::OfCoherence => ", with the noise that coherence tells",
+            Level::Relative(_) | Level::OfResiduals => "",
+        };
+        let _ = writeln!(
+            text,
+            "χ² over degrees of freedom {}{beside}",
+            number(chi, 3)
+        );
     }
     if let Some(used) = found.budget_used {
         let _ = writeln!(

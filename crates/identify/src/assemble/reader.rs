@@ -49,48 +49,20 @@ impl Reader<'_> {
         let functions = functions
             .map(|path| self.one(path, &options))
             .collect::<Result<_, _>>()?;
-        let mut reading = FrfReading::joined(functions)?;
+        let reading = FrfReading::joined(functions)?;
         // all of a file's coherences, so that those of other points are told from none
         let options = ReadOptions {
             selection: Selection::everything().within(from_hz, to_hz),
             ..options
         };
-        let mut of_files: Vec<(&Path, Vec<(Dof, Dof)>)> = Vec::new();
-        for path in &file.coherence {
-            let own = self.one(path, &options)?;
-            let pairs = own.coherences.iter();
-            let pairs = pairs.map(|one| (one.response, one.reference)).collect();
-            of_files.push((path, pairs));
-            reading = reading.with_coherences_of(own)?;
-        }
-        self.warnings.extend(reading.units_warning());
-        self.warnings.extend(reading.phase_warning());
-        if !reading.coherences.is_empty() && reading.averages().is_none() {
-            let path = file.coherence.first().unwrap_or(&file.path);
-            self.warnings.push(format!(
-                "{}: coherence is not used, since the number of averages is not known; state averages beside frf",
-                path.display()
-            ));
-        }
-        let left_out = reading.not_selected.clone();
-        let set = reading
-            .into_set()
+        let coherences = file.coherence.iter();
+        let coherences = coherences
+            .map(|path| self.one(path, &options))
+            .collect::<Result<_, _>>()?;
+        let (set, told) = reading
+            .into_set_beside(coherences)
             .map_err(|refused| refused.asked_for(dofs))?;
-        for (path, pairs) in of_files {
-            let belongs = |&(response, reference): &(Dof, Dof)| {
-                let read = set.functions().map(|own| (own.0, own.1));
-                read.chain(left_out.iter().copied()).any(|(p, q)| {
-                    [p, p.flipped()].contains(&response) && [q, q.flipped()].contains(&reference)
-                })
-            };
-            if !pairs.iter().any(belongs) {
-                self.warnings.push(format!(
-                    "{}: none of its coherences belongs to a function of {}; correct the degrees of freedom in one of the two",
-                    path.display(),
-                    file.path.display()
-                ));
-            }
-        }
+        self.warnings.extend(told);
         match &self.lines {
             Some(lines) => set
                 .thinned(&lines.bands_hz, lines.every)

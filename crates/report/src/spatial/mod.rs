@@ -12,7 +12,7 @@ pub use functions::spatial_figure;
 use bolted_joint_export::provenance;
 use bolted_joint_figures::html::{escaped, percent, shown};
 use bolted_joint_files::Timestamp;
-use bolted_joint_spatial::{Misfit, SideConsistency, SpatialIdentification, SpatialStudy};
+use bolted_joint_spatial::{Level, Misfit, SideConsistency, SpatialIdentification, SpatialStudy};
 
 use super::page::{counted, page};
 
@@ -82,8 +82,12 @@ impl SpatialReport<'_> {
         );
         if let Some(chi) = found.reduced_chi_squared {
             html += &format!(
-                "<p>χ² over degrees of freedom is {}: 1 where the stated noise explains the residuals.</p>\n",
-                shown(chi, 3)
+                "<p>χ² over degrees of freedom is {}: 1 where the noise {} explains the residuals.</p>\n",
+                shown(chi, 3),
+                match self.study.level {
+                    Level::OfCoherence => "that coherence tells",
+                    Level::Relative(_) | Level::OfResiduals => "that is stated",
+                }
             );
         }
         if let Some(substructures) = &found.substructures {

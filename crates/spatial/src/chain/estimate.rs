@@ -9,7 +9,7 @@ use crate::advice::{of_noise, of_zero_functions};
 use crate::error::SpatialError;
 use crate::fit::covariance;
 use crate::identification::Unknown;
-use crate::level::{relative_rms, sizes};
+use crate::level::{first, relative_rms, sizes};
 use crate::links::Sought;
 use crate::normal::Normal;
 use crate::numbers::{Numbers, deviations};
@@ -91,11 +91,8 @@ impl ChainStudy {
             });
         }
         let rms = sizes(&problem);
-        let first = match self.level {
-            Level::Relative(part) => rms.iter().map(|rms| part * rms).collect(),
-            Level::OfResiduals => rms.clone(),
-        };
-        let is_stated = matches!(self.level, Level::Relative(_));
+        let first = first(&problem, self.level, &rms);
+        let is_stated = self.level.is_known();
         let Searched {
             fit,
             starts,
@@ -114,7 +111,7 @@ impl ChainStudy {
         let freedom = (2 * functions * lines - count) as f64;
         let reduced_chi_squared = is_stated.then_some(best.cost / freedom);
         // of a joint that does not explain the functions nothing is said about the part between
-        let explains = reasons::of_noise(reduced_chi_squared).is_none();
+        let explains = reasons::of_noise(self.level, reduced_chi_squared).is_none();
         if explains && let Some(alike) = apart.iter().find(|pair| !pair.told.is_told()) {
             return Err(SpatialError::NotToldApart {
                 joints: alike.joints.clone(),
@@ -150,7 +147,7 @@ impl ChainStudy {
                 .collect(),
             reasons_against: Vec::new(),
         };
-        found.reasons_against = found.reasons(best.has_converged);
+        found.reasons_against = found.reasons(self.level, best.has_converged);
         let more = reasons::of_rivals(rivals).into_iter();
         let more = more.chain(of_energy.into_iter().flatten());
         found.reasons_against.extend(more);
@@ -175,9 +172,9 @@ impl ChainStudy {
 }
 
 impl ChainIdentification {
-    fn reasons(&self, has_converged: bool) -> Vec<String> {
+    fn reasons(&self, level: Level, has_converged: bool) -> Vec<String> {
         let mut reasons = reasons::of_search(has_converged, self.relative_rms);
-        reasons.extend(reasons::of_noise(self.reduced_chi_squared));
+        reasons.extend(reasons::of_noise(level, self.reduced_chi_squared));
         for pair in &self.apart {
             let growth = pair.told.median_growth().into_iter().fold(0.0, f64::max);
             let most = if has_converged {

@@ -11,6 +11,7 @@ use bolted_joint_virtual_point::{Impact, Places, Role, Sensor, SetUp, VirtualPoi
 use nalgebra::{DMatrix, Vector3};
 use num_complex::Complex64;
 
+use crate::coherence::Told;
 use crate::side::{Anew, Interface, Placed, Side};
 use crate::study::DIRECTIONS;
 
@@ -32,6 +33,8 @@ pub(crate) struct Part {
     /// Its table in the study: `a`.
     pub(crate) name: String,
     pub(crate) source: Source,
+    /// Noise of its functions, where coherence tells it.
+    pub(crate) told: Option<Told>,
     /// In the order of the joints.
     pub(crate) interfaces: Vec<PartInterface>,
     /// Channels and impacts of an interface that is not coupled: they come first among what is measured.
@@ -66,6 +69,14 @@ impl Row {
         Self {
             dof,
             of: vec![(dof, 1.0)],
+        }
+    }
+
+    /// The DOF of the functions that it is.
+    fn as_own(&self) -> Option<Dof> {
+        match self.of.as_slice() {
+            [(dof, 1.0)] => Some(*dof),
+            _ => None,
         }
     }
 }
@@ -282,6 +293,7 @@ impl Part {
             responses: rows.iter().map(|row| row.dof).collect(),
             references: columns.iter().map(|row| row.dof).collect(),
             lines: self.lines(study, &rows, &columns, frequency_hz)?,
+            noise: self.noise(&rows, &columns).unwrap_or_default(),
             interfaces,
             anew: Anew::default(),
         };
@@ -290,6 +302,24 @@ impl Part {
         side.transformations(&none)
             .map_err(|refused| study_model(study, refused.name, refused.source))?;
         Ok(side)
+    }
+
+    /// Deviation of the noise of each function at each line, where coherence tells that of all.
+    fn noise(&self, rows: &[Row], columns: &[Row]) -> Option<Vec<DMatrix<f64>>> {
+        let told = self.told.as_ref()?;
+        let own = |rows: &[Row]| rows.iter().map(Row::as_own).collect::<Option<Vec<Dof>>>();
+        let (responses, references) = (own(rows)?, own(columns)?);
+        let functions = references.iter().flat_map(|&reference| {
+            let of = move |&response: &Dof| told.deviations(response, reference);
+            responses.iter().map(of)
+        });
+        let functions = functions.collect::<Option<Vec<_>>>()?;
+        let lines = functions.first().map_or(0, Vec::len);
+        let at = |line: usize| {
+            let of_line = functions.iter().map(|own| own[line]);
+            DMatrix::from_iterator(responses.len(), references.len(), of_line)
+        };
+        Some((0..lines).map(at).collect())
     }
 
     fn lines(
@@ -416,6 +446,7 @@ pub(crate) fn joined(sides: Vec<Side>) -> Side {
         responses: Vec::new(),
         references: Vec::new(),
         lines: Vec::new(),
+        noise: Vec::new(),
         interfaces: Vec::new(),
         anew: Anew::default(),
     };
@@ -428,6 +459,8 @@ pub(crate) fn joined(sides: Vec<Side>) -> Side {
         for (line, own) in all.lines.iter_mut().zip(&own.lines) {
             *line = crate::problem::block_diagonal([line, own]);
         }
+        // of a chain's parts it takes no part
+        all.noise.clear();
         all.responses.append(&mut own.responses);
         all.references.append(&mut own.references);
         all.interfaces.append(&mut own.interfaces);
@@ -446,5 +479,6 @@ fn study_model(
 /// The files behind the functions of a structure.
 pub(crate) fn files_of(table: &crate::tables::PartTable) -> Vec<&PathBuf> {
     let functions = table.frf.iter().flat_map(Paths::iter);
-    functions.chain(&table.modal).collect()
+    let coherences = table.coherence.iter().flat_map(Paths::iter);
+    functions.chain(coherences).chain(&table.modal).collect()
 }

@@ -14,7 +14,8 @@ use super::beam::computed;
 use super::part::{Part, PartInterface, Source};
 use super::plan::candidates::{Candidate, Thing};
 use super::response::Scatter;
-use crate::functions::FileOfFunctions;
+use crate::coherence::Told;
+use crate::functions::{FileOfFunctions, Measured};
 use crate::links::{Link, Numbers};
 use crate::study::{FARTHEST_M, Reader};
 use crate::tables::{
@@ -77,35 +78,40 @@ impl Reader<'_> {
         table: &PartTable,
         lines: &LineChoice,
         assumed: &mut Vec<String>,
-    ) -> Result<Source, StudyError> {
+    ) -> Result<(Source, Option<Told>), StudyError> {
         self.study.beside_functions_only(
             name,
             table.frf.is_some(),
             &[
                 ("quantity", "a quantity", table.quantity.is_some()),
                 ("units", "units", table.units.is_some()),
+                ("averages", "averages", table.averages.is_some()),
+                ("coherence", "a file", table.coherence.is_some()),
             ],
         )?;
         match (&table.frf, &table.modal, &table.beam) {
             (Some(paths), None, None) => {
                 let file = FileOfFunctions {
                     paths,
+                    coherence: table.coherence.as_ref(),
+                    averages: table.averages,
                     quantity: table.quantity,
                     units: table.units.as_ref(),
                 };
                 let read = self.functions(name, &file, lines)?;
                 assumed.extend(read.assumed);
-                Ok(Source::Functions(read.set))
+                let Measured { set, told } = read.measured;
+                Ok((Source::Functions(set), told))
             }
             (None, Some(path), None) => {
                 let model = ModalModel::read(&self.study.resolved(path));
-                Ok(Source::Modes(model.map_err(StudyError::of_file)?))
+                Ok((Source::Modes(model.map_err(StudyError::of_file)?), None))
             }
             (None, None, Some(beam)) => {
                 self.plausible(name, beam)?;
                 let model = computed(beam).modal();
                 let refused = |source| StudyError::model(self.study.path(), Some(name), source);
-                Ok(Source::Modes(model.map_err(refused)?))
+                Ok((Source::Modes(model.map_err(refused)?), None))
             }
             (None, None, None) => self.study.refuse(
                 name,
@@ -157,7 +163,7 @@ impl Reader<'_> {
         &self,
         name: &str,
         table: &PartTable,
-        source: Source,
+        (source, told): (Source, Option<Told>),
         is_measured: bool,
     ) -> Result<Part, StudyError> {
         // of the first part towards the second one, of the others towards the one before
@@ -181,6 +187,8 @@ impl Reader<'_> {
         Ok(Part {
             name: name.to_owned(),
             source,
+            // a plan goes by the noise that is to be expected
+            told: told.filter(|_| is_measured),
             interfaces,
             beside: None,
             responses: self.dofs(&format!("{name}.responses"), &table.responses)?,

@@ -136,6 +136,7 @@ impl ChainStudy {
             responses: dofs(&responses, &rows),
             references: dofs(&references, &columns),
             lines,
+            noise: Vec::new(),
             interfaces: vec![Placed {
                 name: own.name.clone(),
                 first: [0, 0],

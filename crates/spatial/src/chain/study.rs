@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bolted_joint_frf::{Dof, FrfSet};
+use bolted_joint_frf::Dof;
 use bolted_joint_joint::InputFile;
 use bolted_joint_space::Motions;
 use bolted_joint_study::{Method, Paths, StudyError, StudyText, input_file};
@@ -12,7 +12,8 @@ use super::once::every_point_once;
 use super::part::{Part, Source, files_of, joined};
 use super::plan::candidates::Candidate;
 use super::response::Scatter;
-use crate::functions::FileOfFunctions;
+use crate::coherence::level_of;
+use crate::functions::{FileOfFunctions, Measured};
 use crate::links::{Links, Numbers};
 use crate::part_noise::PartNoise;
 use crate::problem::{Level, Observed, Problem};
@@ -40,6 +41,8 @@ pub struct ChainStudy {
     pub files: Vec<InputFile>,
     /// What is known of the noise.
     pub level: Level,
+    /// The same without what coherence tells.
+    pub(crate) stated: Level,
     /// Noise of the functions of a and of b.
     pub noise: [PartNoise; 2],
     pub(crate) text: StudyText,
@@ -48,7 +51,7 @@ pub struct ChainStudy {
     pub(crate) parts: Vec<Part>,
     pub(crate) problem: Problem,
     /// What was measured of the assembly.
-    pub(crate) assembly: Option<FrfSet>,
+    pub(crate) assembly: Option<Measured>,
     /// What had to be assumed of the files.
     pub(crate) assumed: Vec<String>,
     /// What each joint that is sought is taken to be: its table, and K and C where they are stated.
@@ -141,6 +144,8 @@ impl ChainStudy {
             &[
                 ("quantity", "a quantity", file.assembly.quantity.is_some()),
                 ("units", "units", file.assembly.units.is_some()),
+                ("averages", "averages", file.assembly.averages.is_some()),
+                ("coherence", "a file", file.assembly.coherence.is_some()),
             ],
         )?;
         let mut assumed = Vec::new();
@@ -148,21 +153,24 @@ impl ChainStudy {
             Some(paths) => {
                 let own = FileOfFunctions {
                     paths,
+                    coherence: file.assembly.coherence.as_ref(),
+                    averages: file.assembly.averages,
                     quantity: file.assembly.quantity,
                     units: file.assembly.units.as_ref(),
                 };
                 let read = reader.functions("assembly", &own, &lines)?;
                 assumed.extend(read.assumed);
-                Some(read.set)
+                Some(read.measured)
             }
             None => None,
         };
         let is_measured = assembly.is_some();
-        let mut frequency_hz = assembly.as_ref().map(|set| set.frequency_hz().to_vec());
+        let lines_of = |own: &Measured| own.set.frequency_hz().to_vec();
+        let mut frequency_hz = assembly.as_ref().map(lines_of);
         let mut parts = Vec::new();
         for &(name, table) in &tables {
             let source = reader.source(name, table, &lines, &mut assumed)?;
-            if let Source::Functions(set) = &source {
+            if let (Source::Functions(set), _) = &source {
                 match &frequency_hz {
                     None => frequency_hz = Some(set.frequency_hz().to_vec()),
                     Some(expected) => {
@@ -196,10 +204,21 @@ impl ChainStudy {
             scatters.push(scatter);
             links.push(link);
         }
-        let level = reader.level(&file.noise)?;
+        let stated = reader.level(&file.noise)?;
+        let mut level = stated;
+        if assembly.as_ref().is_some_and(|own| own.told.is_some())
+            && let Ok((mut observed, _)) = reader.observed(&sides, assembly.as_ref())
+        {
+            let (told, remark) = level_of(stated, &mut observed);
+            level = told;
+            assumed.extend(remark);
+        }
         // their noise takes part where two structures are joined by one joint
-        let noise = reader.noise(&file.noise)?;
+        let noise = reader.noise(&file.noise, level)?;
         let is_chain = file.joint.len() > 1;
+        if is_chain {
+            assumed.extend(parts.iter().filter_map(of_no_use));
+        }
         for (key, noise) in ["noise.a", "noise.b"].into_iter().zip(&noise) {
             if is_chain && !noise.is_none() {
                 let expected =
@@ -209,7 +228,8 @@ impl ChainStudy {
         }
         let mut files = vec![study.record()];
         let of_parts = tables.iter().map(|&(name, table)| (name, files_of(table)));
-        let of_assembly = file.assembly.frf.iter().flat_map(Paths::iter).collect();
+        let of_assembly = file.assembly.frf.iter().chain(&file.assembly.coherence);
+        let of_assembly = of_assembly.flat_map(Paths::iter).collect();
         for (role, paths) in of_parts.chain([("assembly", of_assembly)]) {
             for path in paths {
                 let path = study.resolved(path);
@@ -249,6 +269,7 @@ impl ChainStudy {
             notes: file.notes,
             files,
             level,
+            stated,
             noise,
             text: study.clone(),
             motions,
@@ -279,7 +300,9 @@ impl ChainStudy {
             study: &self.text,
             motions: self.motions,
         };
-        reader.observed(&self.problem.sides, self.assembly.as_ref())
+        let (mut observed, zero) = reader.observed(&self.problem.sides, self.assembly.as_ref())?;
+        level_of(self.stated, &mut observed);
+        Ok((observed, zero))
     }
 
     /// Why nothing is found where nothing is sought.
@@ -322,6 +345,16 @@ pub(crate) fn sides(
         sides.map(joined)
     };
     Ok([of(0)?, of(1)?])
+}
+
+/// A remark on coherence of a part in a chain.
+fn of_no_use(part: &Part) -> Option<String> {
+    part.told.as_ref().map(|_| {
+        format!(
+            "{}: its coherence is not used: chains take the noise of the assembly's functions alone",
+            part.name
+        )
+    })
 }
 
 fn counted(count: usize, what: &str) -> String {

@@ -25,7 +25,7 @@ use num_complex::Complex64;
 pub(crate) use self::search::{estimated, searched_beside};
 
 use self::model::{Computed, Hidden, Model, between_nodes};
-use self::noise::{Grids, reduced_by, weights};
+use self::noise::{Grids, reduced_by, weights, weights_by_line};
 use self::rows::Rows;
 use self::sums::{Compared, Gathered};
 use crate::dyads::{Group, squares};
@@ -74,6 +74,11 @@ impl<'p> Beside<'p> {
             let parts = over_lines(side.lines.len(), |lines| {
                 let of = |line: usize| {
                     let functions = &side.lines[line];
+                    if let Some(told) = side.noise.get(line) {
+                        let weights = weights_by_line(functions, told);
+                        let reduced = reduced_by(&own, &weights, functions)?;
+                        return Ok::<_, SpatialError>((weights, reduced));
+                    }
                     // weights by what is measured would favour what noise has made small
                     let first = weights(functions, &noise[n]);
                     let weights = match side.points() {
@@ -84,7 +89,7 @@ impl<'p> Beside<'p> {
                         None => first,
                     };
                     let reduced = reduced_by(&own, &weights, functions)?;
-                    Ok::<_, SpatialError>((weights, reduced))
+                    Ok((weights, reduced))
                 };
                 lines.map(of).collect::<Result<Vec<_>, _>>()
             })?;

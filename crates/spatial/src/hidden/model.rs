@@ -32,6 +32,7 @@ pub(super) fn between_nodes(problem: &Problem, hidden: &[Hidden]) -> Problem {
             responses: named(&own.responses, rows),
             references: named(&own.references, columns),
             lines: hidden.iter().map(|hidden| hidden[n].clone()).collect(),
+            noise: Vec::new(),
             interfaces: (own.interfaces.iter())
                 .map(|placed| Placed {
                     name: placed.name.clone(),

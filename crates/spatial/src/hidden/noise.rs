@@ -32,22 +32,57 @@ impl Grids {
     }
 }
 
+/// 1/σ² of functions with noise of these deviations.
+pub(super) fn weights_by_line(
+    functions: &DMatrix<Complex64>,
+    deviations: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let faint = Faint::of(functions);
+    DMatrix::from_fn(functions.nrows(), functions.ncols(), |i, j| {
+        inverse_square(deviations[(i, j)].max(LEAST * faint.size(functions, i, j)))
+    })
+}
+
 /// 1/σ² of functions with this noise.
 pub(super) fn weights(functions: &DMatrix<Complex64>, noise: &PartNoise) -> DMatrix<f64> {
-    let rms = |all: Vec<f64>| (all.iter().sum::<f64>() / all.len().max(1) as f64).sqrt();
-    let of_rows: Vec<f64> = (functions.row_iter())
-        .map(|row| rms(row.iter().map(Complex64::norm_sqr).collect()))
-        .collect();
-    let of_columns: Vec<f64> = (functions.column_iter())
-        .map(|column| rms(column.iter().map(Complex64::norm_sqr).collect()))
-        .collect();
-    let all = rms(functions.iter().map(Complex64::norm_sqr).collect());
+    let faint = Faint::of(functions);
     DMatrix::from_fn(functions.nrows(), functions.ncols(), |i, j| {
-        let least = FAINT * of_rows[i] * of_columns[j] / all;
-        let of_value = functions[(i, j)].norm().max(least) * noise.relative.max(LEAST);
-        let size = of_value.hypot(noise.floor(i, j));
-        if size > 0.0 { size.powi(-2) } else { 0.0 }
+        let of_value = faint.size(functions, i, j) * noise.relative.max(LEAST);
+        inverse_square(of_value.hypot(noise.floor(i, j)))
     })
+}
+
+fn inverse_square(size: f64) -> f64 {
+    if size > 0.0 { size.powi(-2) } else { 0.0 }
+}
+
+/// How large a value counts where it is small beside the others of its row and column.
+struct Faint {
+    of_rows: Vec<f64>,
+    of_columns: Vec<f64>,
+    all: f64,
+}
+
+impl Faint {
+    fn of(functions: &DMatrix<Complex64>) -> Self {
+        let rms = |all: Vec<f64>| (all.iter().sum::<f64>() / all.len().max(1) as f64).sqrt();
+        let rows = functions.row_iter();
+        let columns = functions.column_iter();
+        Self {
+            of_rows: rows
+                .map(|row| rms(row.iter().map(Complex64::norm_sqr).collect()))
+                .collect(),
+            of_columns: columns
+                .map(|column| rms(column.iter().map(Complex64::norm_sqr).collect()))
+                .collect(),
+            all: rms(functions.iter().map(Complex64::norm_sqr).collect()),
+        }
+    }
+
+    fn size(&self, functions: &DMatrix<Complex64>, i: usize, j: usize) -> f64 {
+        let least = FAINT * self.of_rows[i] * self.of_columns[j] / self.all;
+        functions[(i, j)].norm().max(least)
+    }
 }
 
 /// h by weighted least squares.

@@ -8,6 +8,19 @@ fn noise() -> [PartNoise; 2] {
     [0.02, 0.03].map(PartNoise::of_values)
 }
 
+#[test]
+fn functions_count_by_the_noise_that_coherence_tells_of_each_value() {
+    let functions = DMatrix::from_element(2, 2, Complex64::new(3.0, 4.0));
+    let told = DMatrix::from_row_slice(2, 2, &[0.1, 0.5, 2.0, 0.0]);
+    let found = noise::weights_by_line(&functions, &told);
+    let expected = [(0, 0, 100.0), (0, 1, 4.0), (1, 0, 0.25)];
+    for (i, j, weight) in expected {
+        assert!((found[(i, j)] / weight - 1.0).abs() < 1e-12, "{found}");
+    }
+    // what is said to be exact is known to a ten-thousandth
+    assert!((found[(1, 1)] * (5e-4_f64).powi(2) - 1.0).abs() < 1e-12);
+}
+
 /// A problem whose functions follow from rigid interfaces, but for some noise; its levels and where it is looked at.
 fn sample(problem: Problem) -> (Problem, Deviations, Unknowns) {
     let mut problem = problem.smoothed().unwrap();

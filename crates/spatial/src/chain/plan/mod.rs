@@ -100,7 +100,7 @@ impl ChainStudy {
         if links.sought().is_empty() {
             return Err(self.all_known().into());
         }
-        let Level::Relative(noise) = self.level else {
+        let Level::Relative(noise) = self.stated else {
             return Err(SpatialError::NoNoise);
         };
         let (values, mut warnings) = self.expected()?;

@@ -92,6 +92,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
                 kind,
                 FileKind::JointFile
                     | FileKind::OtherJson
+                    | FileKind::List
                     | FileKind::Assembly
                     | FileKind::Fmu
                     | FileKind::OtherZip

@@ -76,6 +76,8 @@ fn a_study_is_made_of_the_files_that_are_there() {
         &["b.uff: found a file, expected the folder with the measurements"],
     );
     bench.done("init -o other.toml");
+    let told = "--output: found study.txt, expected a name that ends in .toml";
+    bench.refused("init -o study.txt", &[told]);
     has(
         &bench.done("init -o -").stdout,
         &["method = \"frf-decoupling\""],

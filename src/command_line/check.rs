@@ -15,7 +15,7 @@ use bolted_joint::check::{
     inspect_assembly,
 };
 use bolted_joint::export::Interface;
-use bolted_joint::joint::JointFile;
+use bolted_joint::joint::{JointFile, MatrixPassivity};
 use bolted_joint::show::FileKind;
 use bolted_joint::study::StudyText;
 
@@ -36,11 +36,11 @@ pub(super) struct CheckArguments {
     /// Only look into the FMU: run none of its code. Without this its library is run, in a process of its own
     #[arg(long)]
     no_run: bool,
-    #[command(flatten)]
-    neighbours: NeighbourArguments,
     /// Print the findings as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    neighbours: NeighbourArguments,
 }
 
 /// The child process of `check`
@@ -92,6 +92,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
                 kind,
                 FileKind::JointFile
                     | FileKind::OtherJson
+                    | FileKind::List
                     | FileKind::Assembly
                     | FileKind::Fmu
                     | FileKind::OtherZip
@@ -182,10 +183,7 @@ fn joint_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliErro
     if file.bodies.is_some() {
         facts.push(with_dofs!(file.joint.dofs.size(), D => lap_fact::<D>(&joints)));
     }
-    let findings = passivity
-        .active()
-        .map(|matrix| format!("{matrix}; expected it positive semidefinite: this joint can feed energy into a simulation"))
-        .collect();
+    let findings = passivity.active().map(MatrixPassivity::finding).collect();
     let mut details = Map::new();
     let neighbours = &arguments.neighbours;
     if let Some(step) = communication_step(&joints, Interface::Element, neighbours, None, None)? {
@@ -234,9 +232,8 @@ fn assembly_file(path: &Path, arguments: &CheckArguments) -> Result<Report, CliE
     for joint in &model.joints {
         let name = &joint.name;
         let passivity = joint.file.passivity();
-        findings.extend(passivity.active().map(|matrix| {
-            format!("joint {name}: {matrix}; expected it positive semidefinite: this joint can feed energy into a simulation")
-        }));
+        let active = passivity.active();
+        findings.extend(active.map(|matrix| format!("joint {name}: {}", matrix.finding())));
         reasons_against.extend(
             joint
                 .file

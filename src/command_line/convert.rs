@@ -10,7 +10,7 @@ use bolted_joint::assembly::AssemblyModel;
 use bolted_joint::convert::{
     Converted, Options, Target, Units, convert, convert_assembly, identifier,
 };
-use bolted_joint::joint::JointFile;
+use bolted_joint::joint::{JointFile, MatrixPassivity};
 use bolted_joint::show::FileKind;
 use bolted_joint::study::StudyText;
 
@@ -112,7 +112,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<(), CliError> {
         |kind| {
             matches!(
                 kind,
-                FileKind::JointFile | FileKind::OtherJson | FileKind::Assembly
+                FileKind::JointFile | FileKind::OtherJson | FileKind::List | FileKind::Assembly
             )
         },
     )?;
@@ -282,10 +282,7 @@ fn name_of(arguments: &ConvertArguments, name: &str) -> String {
 
 fn notes_of_passivity(file: &JointFile) -> Vec<String> {
     let passivity = file.passivity();
-    let active = passivity.active();
-    active
-        .map(|matrix| format!("{matrix}: this joint can feed energy into a simulation"))
-        .collect()
+    passivity.active().map(MatrixPassivity::finding).collect()
 }
 
 /// Two different nodes.

@@ -148,7 +148,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         |kind| {
             matches!(
                 kind,
-                FileKind::JointFile | FileKind::OtherJson | FileKind::Assembly
+                FileKind::JointFile | FileKind::OtherJson | FileKind::List | FileKind::Assembly
             )
         },
     )?;

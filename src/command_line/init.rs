@@ -8,7 +8,7 @@ use clap::Args;
 use bolted_joint::show::draft;
 
 use super::error::CliError;
-use super::output::{check_output, is_standard_output, print, write_file};
+use super::output::{check_output, has_extension, is_standard_output, print, write_file};
 use super::schema;
 
 /// `init`
@@ -40,6 +40,12 @@ pub(super) fn run(arguments: &InitArguments) -> Result<(), CliError> {
     };
     let draft = draft(&arguments.folder)?;
     check_output(output, &[])?;
+    // a file by another name would be taken for a table; what must not be replaced is told when it is written
+    let is_new = !is_standard_output(output) && !output.exists();
+    if is_new && !has_extension(output, "toml") {
+        let expected = "a name that ends in .toml, by which a study is told from a table";
+        return Err(CliError::option("--output", output.display(), expected));
+    }
     let schema = match is_standard_output(output) {
         true => None,
         false => Some(output.with_file_name(schema::FILE)),

@@ -62,7 +62,7 @@ fn is_text_of_another_kind(path: &Path) -> bool {
 /// A study.
 pub(super) fn expect_study(path: &Path) -> Result<(), CliError> {
     expect_kind(path, "a study (TOML)", |kind| {
-        matches!(kind, FileKind::Study(_) | FileKind::OtherJson)
+        matches!(kind, FileKind::Study(_))
     })
     .map(|_| ())
 }
@@ -70,7 +70,10 @@ pub(super) fn expect_study(path: &Path) -> Result<(), CliError> {
 /// A joint file.
 pub(super) fn expect_joint_file(path: &Path) -> Result<(), CliError> {
     expect_kind(path, "a joint file (JSON)", |kind| {
-        matches!(kind, FileKind::JointFile | FileKind::OtherJson)
+        matches!(
+            kind,
+            FileKind::JointFile | FileKind::OtherJson | FileKind::List
+        )
     })
     .map(|_| ())
 }

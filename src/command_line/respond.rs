@@ -152,12 +152,7 @@ pub(super) fn run(arguments: &RespondArguments) -> Result<(), CliError> {
     let kind = expect(
         &arguments.study,
         "a study or an assembly file (TOML)",
-        |kind| {
-            matches!(
-                kind,
-                FileKind::Study(_) | FileKind::Assembly | FileKind::OtherJson
-            )
-        },
+        |kind| matches!(kind, FileKind::Study(_) | FileKind::Assembly),
     )?;
     if let Some(joint) = &arguments.joint {
         expect_joint_file(joint)?;

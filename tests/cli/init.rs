@@ -47,6 +47,8 @@ fn a_study_is_made_of_the_files_that_are_there() {
             "points: 1:+Y 2:+Y 3:+Y",
             // no rotation of b was measured
             "model = \"translation\"",
+            // b and the assembly go to 512 Hz
+            "\nto = 288.3   # CHECK: the highest mode in a-modes.toml\n",
         ],
     );
     // it is a study that every command understands
@@ -74,6 +76,8 @@ fn a_study_is_made_of_the_files_that_are_there() {
         &["b.uff: found a file, expected the folder with the measurements"],
     );
     bench.done("init -o other.toml");
+    let told = "--output: found study.txt, expected a name that ends in .toml";
+    bench.refused("init -o study.txt", &[told]);
     has(
         &bench.done("init -o -").stdout,
         &["method = \"frf-decoupling\""],

@@ -24,7 +24,10 @@ fn what_is_no_joint_file_is_said_to_be_none() {
         (PNG, ["j.joint.json: found bytes that are no text", "JSON text in UTF-8"]),
         (JOINT.split_at(cut).0.as_bytes(), ["j.joint.json:7:", "the file ends too early, in joint.damping"]),
         (b"method = 1\n", ["j.joint.json:1:1: is not JSON", "give the NAME.joint.json"]),
-        (b"[]", ["j.joint.json", "expected an object"]),
+        (b"[]", ["found a list, expected an object", "give the NAME.joint.json"]),
+        (b"\n[[1.0, 2.0],\n", ["found a list, expected an object", "give the NAME.joint.json"]),
+        (b"[{\"format\": \"bolted-joint/1\"}]", ["found a list, expected an object", "take the joint file that is in it out of the brackets"]),
+        (b"[frequency]\nfrom = 1\n", ["found the table header [frequency] of TOML", "give the NAME.joint.json"]),
         (b"{}", ["j.joint.json:1:2: format: not found", "add it"]),
     ];
     for command in COMMANDS {
@@ -45,7 +48,8 @@ fn every_wrong_entry_is_named() {
         ("[\"y\", \"theta\"]", "[\"theta\", \"y\"]", ["joint.dofs: found [\"theta\", \"y\"]", "expected [\"y\"] or [\"y\", \"theta\"]"]),
         ("[[8e4, 600], [600, 120]]", "[[8e4]]", ["joint.stiffness: found 1 entry", "expected 2, one for each of joint.dofs"]),
         ("[[8e4, 600], [600, 120]]", "[[8e4, 600], [600]]", ["joint.stiffness[1]: found 1 entry", "expected 2"]),
-        ("[[8e4, 600], [600, 120]]", "8e4", ["joint.stiffness: found", "expected a list"]),
+        ("[[8e4, 600], [600, 120]]", "8e4", ["joint.stiffness: found 80000.0", "expected a list"]),
+        ("\"cubic\": [0, 0]", "\"cubic\": [0, 0], \"cubic\": [0, 1]", ["joint.cubic: found twice", "take one of them out"]),
         ("8e4, 600", "\"8e4\", 600", [":6:", "joint.stiffness[0][0]: found string \"8e4\", expected a number"]),
         ("8e4, 600", "1e999, 600", [":6:", "joint.stiffness[0][0]: found 1e999, expected a finite number"]),
         ("8e4, 600", "NaN, 600", [":6:", "joint.stiffness[0][0]: found NaN, expected a finite number"]),

@@ -276,6 +276,28 @@ fn models_of_laps_are_compared_by_another_key_than_rivals() {
     );
 }
 
+/// Runs that end at different frequencies are within a range where one of them reaches as far.
+#[test]
+fn a_range_beyond_all_runs_is_told() {
+    let bench = Bench::new();
+    bench.write("low.csv", csv(&rows("b", 1.0, [60.0, 105.0], 1)));
+    bench.write("high.csv", csv(&rows("b", 1.0, [65.0, 115.0], 2)));
+    let both = study("b", &[("low.csv", "fit"), ("high.csv", "fit")]);
+    let told = "`frequency`: found from 60 to 300 Hz, but the lines of the stepped sines that are used go from 60 to 115 Hz only";
+    for (range, is_told) in [
+        ("from = 60\nto = 115.2", false),
+        ("from = 60\nto = 300", true),
+    ] {
+        bench.write("study.toml", format!("{both}[frequency]\n{range}\n"));
+        let outcome = bench.done(&format!("{IDENTIFY} --json"));
+        let warnings = outcome.json()["warnings"].to_string();
+        for text in [&outcome.stderr, &warnings] {
+            assert_eq!(text.contains(told), is_told, "{range}: {text}");
+            assert_eq!(text.contains("`frequency`"), is_told, "{range}: {text}");
+        }
+    }
+}
+
 #[test]
 fn repeated_rows_count_once() {
     let bench = Bench::new();

@@ -6,7 +6,7 @@ use bolted_joint_testing::has;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::bench::{Bench, PNG};
+use crate::bench::{Bench, PNG, replaced};
 use crate::joint_file::JOINT;
 
 const STUDY: &str = include_str!("../../examples/tol-m10x16/study.toml");
@@ -325,6 +325,11 @@ fn what_cannot_be_shown_is_said() {
     bench.write("p.png", PNG);
     bench.write("o.json", "{\"a\": 1}");
     bench.write("e.toml", "");
+    bench.write("l", "[1, 2]\n[3, 4]\n");
+    bench.write("l.joint.json", format!("[{JOINT}]"));
+    bench.write("h.joint.json", "[frequency]\nfrom = 1\n");
+    bench.write("h", "[frequency]\nfrom = 1\n");
+    bench.write("q.joint.json", "{'format': 'bolted-joint/1'}");
     bench.write("e.joint.json", "\n");
     bench.write(
         "v.mat",
@@ -340,6 +345,11 @@ fn what_cannot_be_shown_is_said() {
         ("show missing.uff", ["missing.uff", "cannot be read"]),
         ("show p.png", ["p.png: found a file of an unknown kind", "an FMU or an SSP"]),
         ("show o.json", ["o.json: found a JSON file", "expected measured functions"]),
+        ("show l", ["l: found a list, as in JSON", "check the path"]),
+        ("show l.joint.json", ["found a list, expected an object", "take the joint file that is in it out of the brackets"]),
+        ("show h.joint.json", ["found the table header [frequency] of TOML", "give the NAME.joint.json"]),
+        ("show h", ["h: `method`: found nothing", "such as method ="]),
+        ("show q.joint.json", ["q.joint.json:1:2: is not JSON", "give the NAME.joint.json"]),
         ("show .", [".: found a folder", "check the path"]),
         ("show e.toml", ["e.toml: found an empty file", "a study, an assembly, a joint file"]),
         ("show e.joint.json", ["e.joint.json: found an empty file", "a study, an assembly, a joint file"]),
@@ -355,6 +365,31 @@ fn what_cannot_be_shown_is_said() {
         "\"status\": { \"usable\": false, \"reasons\": [\"has not converged\"] }, \"name\"";
     bench.write("bad.joint.json", JOINT.replacen("\"name\"", status, 1));
     bench.unusable("show bad.joint.json", &["has not converged"]);
+}
+
+#[test]
+fn an_active_joint_is_told_as_by_check() {
+    let bench = bench();
+    let active = replaced(JOINT, "[[6, 0.05], [0.05, 0.02]]", "[[6, 5], [5, 0.02]]");
+    bench.write("j.joint.json", active);
+    bench.done("export j.joint.json -o j.fmu --allow-active");
+    let said = "joint.damping is active: smallest eigenvalue ";
+    let why = "expected it positive semidefinite: this joint can feed energy into a simulation";
+    for file in ["j.joint.json", "j.fmu", "beams.toml"] {
+        let shown = bench.done(&format!("show {file}"));
+        assert_eq!(shown.stderr.matches(said).count(), 1, "{}", shown.stderr);
+        has(&shown.stderr, &[why]);
+        let fact = "  passive       no, it is active: it can feed energy into a simulation\n";
+        let has_fact = shown.stdout.contains(fact);
+        assert_eq!(has_fact, file != "beams.toml", "{}", shown.stdout);
+        has(
+            &bench.fails(&format!("check {file}"), &[said]).stderr,
+            &[why],
+        );
+    }
+    let json = bench.done("show j.joint.json --json").json();
+    assert_eq!(json[0]["details"]["passive"], false);
+    assert_eq!(json[0]["facts"]["passive"].as_array().unwrap().len(), 1);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use bolted_joint_testing::has;
 
-use crate::bench::{Bench, IDENTIFY};
+use crate::bench::{Bench, IDENTIFY, replaced};
 use crate::examples::files_of;
 use crate::joint_file::JOINT;
 use crate::rig;
@@ -21,6 +21,61 @@ fn a_named_band_without_a_line_is_told() {
     with("yy = [[0.5, 1]]\nthetatheta = [[0.5, 1], [3000, 4000]]");
     let told = "`bands`: found no line in any band, expected bands with lines: the lines that are used go from 2 to 200 Hz";
     bench.refused(IDENTIFY, &[told]);
+}
+
+/// The lines of the rig are 2, 5, … 200 Hz.
+#[test]
+fn a_range_beyond_the_data_is_told_with_what_is_used() {
+    let bench = rig::ready();
+    let text = bench.text("study.toml");
+    let of = |range: &str| bench.write("study.toml", replaced(&text, "from = 2\nto = 200", range));
+    for range in [
+        "from = 2\nto = 200",
+        "from = 1\nto = 202.9",
+        "from = 20",
+        "every = 7\nto = 200",
+        "bands = [[2, 50], [80, 200]]",
+    ] {
+        of(range);
+        let stderr = bench.done(IDENTIFY).stderr;
+        assert!(!stderr.contains("`frequency"), "{range}: {stderr}");
+    }
+    let used = "but the lines of c.uff that are used go from 2 to 200 Hz only";
+    for (range, found) in [
+        ("to = 3000", "`frequency`: found to 3000 Hz"),
+        (
+            "from = 1\nto = 3000",
+            "`frequency`: found from 1 to 3000 Hz",
+        ),
+        (
+            "bands = [[2, 50], [80, 3000]]",
+            "`frequency.bands`: found from 2 to 3000 Hz",
+        ),
+    ] {
+        of(range);
+        let told = format!("{found}, {used}");
+        let outcome = bench.done(&format!("{IDENTIFY} --json --report o.html"));
+        has(&outcome.stderr, &[&told]);
+        has(&outcome.json()["warnings"].to_string(), &[&told]);
+        has(&bench.text("o.html"), &[used]);
+    }
+    // what is not stated is no number in the report
+    of("to = 200");
+    has(&bench.report(), &["<td>to 200 Hz</td>"]);
+}
+
+#[test]
+fn a_range_beyond_the_data_of_a_chain_is_told() {
+    let bench = files_of("tool-point");
+    bench.done("respond study.toml --step 50 -o tool.csv");
+    let text = bench.text("study.toml") + "[assembly]\nfrf = \"tool.csv\"\n";
+    for (to, is_told) in [("to = 4049", false), ("to = 9000", true)] {
+        bench.write("study.toml", replaced(&text, "to = 4000", to));
+        let stderr = bench.done("respond study.toml -o o.csv").stderr;
+        let told = "`frequency`: found from 100 to 9000 Hz, but the lines of all files that are used go from 100 to 4000 Hz only";
+        assert_eq!(stderr.contains(told), is_told, "{stderr}");
+        assert_eq!(stderr.contains("`frequency`"), is_told, "{stderr}");
+    }
 }
 
 #[test]

@@ -79,7 +79,7 @@ def test_a_file_for_each_reference(demo, study, run):
     inputs = [one["file"] for one in found["provenance"]["inputs"] if one["role"] == "assembly"]
     assert inputs == ["0.csv", "1.csv", "2.csv"]
     shown = run("show", study.folder / "study.toml").stdout
-    assert "assembly.frf.1 = 1.csv: a table" in shown
+    assert "assembly.frf[1] = 1.csv: a table" in shown
     _, done = study('frf = ["0.csv", "1.csv", "0.csv"]', expect=1)
     assert "0.csv: has the function 11:+Y / 11:+Y, which" in done.stderr and "remove it from one" in done.stderr
     _, done = study("frf = []", expect=1)

@@ -208,3 +208,21 @@ def test_frequencies_of_other_digits_are_the_same(run, tmp_path):
         np.savez(tmp_path / "b.npz", **{**held, "frequency": frequency})
         told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=0 if is_same else 1).stderr
         assert is_same or "the first that differs is" in told, told
+
+
+TOLD = "`frequency`: found to 9000 Hz, but the lines of all files that are used go from 60 to 2500 Hz only"
+
+
+def test_a_range_beyond_the_data_is_told(run, tmp_path):
+    Rig(*TRUTH).write(tmp_path, FREQUENCIES, budget='budget = "none"\nfrequency = { to = 9000 }\n')
+    done = identified(run, tmp_path)
+    assert TOLD in done.stderr and any(TOLD in warning for warning in json.loads(done.stdout)["warnings"])
+    # less than a line
+    replaced(tmp_path, ("to = 9000", "to = 2520"))
+    assert "`frequency`" not in identified(run, tmp_path).stderr
+
+
+def test_a_range_beyond_the_data_of_a_chain_is_told(run, tmp_path):
+    Chain([TRUTH, SECOND]).write(tmp_path, FREQUENCIES, EVERYWHERE, [SOUGHT, SOUGHT], more="frequency = { to = 9000 }\n")
+    done = identified(run, tmp_path)
+    assert TOLD in done.stderr and any(TOLD in warning for warning in json.loads(done.stdout)["warnings"])

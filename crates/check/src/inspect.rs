@@ -101,11 +101,8 @@ pub fn inspect(path: &Path) -> Result<Inspection, CheckError> {
         );
     }
     let passivity = joint.passivity();
-    findings.extend(
-        passivity.active().map(|matrix| {
-            format!("resources/joint.json: {matrix}; a simulation with it can blow up")
-        }),
-    );
+    let active = passivity.active();
+    findings.extend(active.map(|matrix| format!("resources/joint.json: {}", matrix.finding())));
     let step_size_max_s = start.value("step_size_max");
     if let (Interface::Lap, Some(step_s)) = (start.interface, step_size_max_s) {
         findings.extend(step_finding(&joint, step_s));

@@ -7,6 +7,7 @@ mod encoding;
 pub mod inputs;
 pub mod misspelt;
 mod number;
+mod table_header;
 pub mod text_file;
 pub mod text_table;
 mod timestamp;
@@ -16,6 +17,7 @@ pub use decimal::Decimal;
 pub use encoding::Encoding;
 pub use misspelt::nearest;
 pub use number::number;
+pub use table_header::table_header;
 pub use text_file::TextFileError;
 pub use timestamp::{Civil, DateError, Timestamp};
 

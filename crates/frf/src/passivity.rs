@@ -2,6 +2,7 @@
 //!
 //! The phase of a structure that hardly dissipates is noise but at its resonances, so that only lines count at which it is more.
 
+use bolted_joint_statistics::upper_median;
 use num_complex::Complex64;
 
 /// A drive point whose imaginary parts are positive on balance, by this part of their sum, feeds energy instead of taking it up.
@@ -126,9 +127,9 @@ impl Noise {
         });
         let mut all: Vec<[f64; 2]> = all.collect();
         all.sort_by(|one, other| one[0].total_cmp(&other[0]));
-        let relative = median(all.iter().map(|[size, deviation]| deviation / size));
+        let relative = median_or_zero(all.iter().map(|[size, deviation]| deviation / size));
         let smallest = (SMALLEST * all.len() as f64) as usize;
-        let floor = median(all[..smallest].iter().map(|[_, deviation]| *deviation));
+        let floor = median_or_zero(all[..smallest].iter().map(|[_, deviation]| *deviation));
         let least = match all.len() < ENOUGH_FOR_NOISE {
             true => USUAL_NOISE,
             false => 0.0,
@@ -145,11 +146,8 @@ impl Noise {
     }
 }
 
-/// Zero of none.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
+fn median_or_zero(values: impl Iterator<Item = f64>) -> f64 {
+    upper_median(values).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use num_complex::Complex64;
 
 use bolted_joint_frf::resonances;
 use bolted_joint_frf::structure::SingularAssembly;
+use bolted_joint_statistics::median;
 
-use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, median, name};
+use super::bands::{BandChoice, BandChoices, BandOrigin, Bands, UsedBands, name};
 use super::block::Block;
 use super::independent_parts::IndependentParts;
 use super::kernel::Kernel;
@@ -170,7 +171,7 @@ fn measures(
             let sizes = parts
                 .iter()
                 .flat_map(|part| part.sizes.iter().skip(e).step_by(entries));
-            median(sizes.copied().collect()).unwrap_or(0.0)
+            median(sizes.copied()).unwrap_or(0.0)
         })
         .collect();
     let found = parallel::map_each(parts, |part| part.measures(&usual, decoupled.len()));

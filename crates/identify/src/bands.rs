@@ -1,6 +1,7 @@
 //! Averages of the decoupled stiffness over bands: the classical estimate, and the start of the refined one.
 
 use bolted_joint_frf::structure::ComplexMatrix;
+use bolted_joint_statistics::median;
 use nalgebra::DMatrix;
 
 use super::model::{JointMatrices, JointModel};
@@ -218,19 +219,6 @@ pub(super) fn name(entry: (usize, usize)) -> &'static str {
 
 fn mean(values: Vec<f64>) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-}
-
-pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
-    let (middle, is_odd) = (values.len() / 2, values.len() % 2 == 1);
-    if values.is_empty() {
-        return None;
-    }
-    let (below, &mut upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    let lower = below.iter().copied().max_by(f64::total_cmp);
-    Some(match lower {
-        Some(lower) if !is_odd => 0.5 * (lower + upper),
-        _ => upper,
-    })
 }
 
 #[cfg(test)]

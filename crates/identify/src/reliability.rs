@@ -2,6 +2,7 @@
 //! whether the model has anything to do with the measurement. What is merely worse than it could be is warned of instead.
 
 use bolted_joint_frf::structure::ComplexMatrix;
+use bolted_joint_statistics::upper_median;
 use bolted_joint_study::overstated_noise;
 
 use super::assessment::Assessment;
@@ -234,18 +235,10 @@ impl Identification {
 
 /// Median of |measured − computed|/max(|measured|, |computed|) over all values.
 pub(super) fn median_difference(fitted: &[AssemblyFit]) -> Option<f64> {
-    let mut differences: Vec<f64> = fitted
-        .iter()
-        .flat_map(|assembly| {
-            let lines = assembly.lines.assembly.iter().zip(&assembly.regenerated);
-            lines.flat_map(|(measured, computed)| of_line(assembly, measured, computed))
-        })
-        .collect();
-    if differences.is_empty() {
-        return None;
-    }
-    let middle = differences.len() / 2;
-    Some(*differences.select_nth_unstable_by(middle, f64::total_cmp).1)
+    upper_median(fitted.iter().flat_map(|assembly| {
+        let lines = assembly.lines.assembly.iter().zip(&assembly.regenerated);
+        lines.flat_map(|(measured, computed)| of_line(assembly, measured, computed))
+    }))
 }
 
 fn of_line<'a>(

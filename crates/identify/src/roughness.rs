@@ -9,6 +9,7 @@ mod fit;
 mod shown_level;
 mod shown_noise;
 
+use bolted_joint_statistics::upper_median;
 use num_complex::Complex64;
 
 pub use shown_level::ShownLevel;
@@ -216,13 +217,10 @@ impl<'f> Function<'f> {
             let Size { relative, floor } = self.level;
             own.power / (own.by_relative * relative.powi(2) + own.by_floor * floor.powi(2))
         };
-        let mut sorted: Vec<f64> = samples.iter().map(of).collect();
-        if sorted.is_empty() {
+        let Some(median) = upper_median(samples.iter().map(of)) else {
             return samples;
-        }
-        let middle = sorted.len() / 2;
-        let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
-        let limit = FAR * *median / std::f64::consts::LN_2;
+        };
+        let limit = FAR * median / std::f64::consts::LN_2;
         samples.into_iter().filter(|own| of(own) <= limit).collect()
     }
 
@@ -248,10 +246,10 @@ impl<'f> Function<'f> {
 
     /// Lines in use that are far off, each farther than any of those around it.
     fn farthest(&self, distances: &[f64]) -> Vec<usize> {
-        let mut sorted = distances.to_vec();
-        let middle = sorted.len() / 2;
-        let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
-        let limit = FAR * (*median / std::f64::consts::LN_2).max(1.0);
+        let Some(median) = upper_median(distances.iter().copied()) else {
+            return Vec::new();
+        };
+        let limit = FAR * (median / std::f64::consts::LN_2).max(1.0);
         let is_highest = |place: usize| {
             let around =
                 place.saturating_sub(WINDOW / 2)..(place + WINDOW / 2 + 1).min(distances.len());

@@ -3,7 +3,8 @@
 //! Whether a set-up is right can be asked beside a noise that somebody knows, and hardly beside one that follows from what the
 //! set-up leaves.
 
-use super::bands::median;
+use bolted_joint_statistics::median;
+
 use super::lines::Lines;
 use super::noise::{Noise, StatedFloor, StatedLevel};
 use super::receptances::MeasuredSubstructure;

@@ -61,6 +61,30 @@ pub enum JointFileError {
         /// What it looks like.
         found: &'static str,
     },
+    /// The text is a list, or begins as one.
+    #[error(
+        "{origin}: found a list, expected an object, {{ … }}, as a joint file is (format \"{}\"); {}",
+        Format::NAME,
+        instead_of_list(*joint_files)
+    )]
+    List {
+        /// Origin.
+        origin: String,
+        /// How many of its entries are joint files themselves.
+        joint_files: usize,
+    },
+    /// The text begins with the header of a table in TOML.
+    #[error(
+        "{origin}: found the table header {header} of TOML, expected a joint file: JSON, an object {{ … }} (format \"{}\"); \
+         give the NAME.joint.json that `identify` wrote",
+        Format::NAME
+    )]
+    TableHeader {
+        /// Origin.
+        origin: String,
+        /// The header.
+        header: String,
+    },
     /// The text ends in the middle of a value.
     #[error("{at}: the file ends too early, in {}; it seems to be cut off", at.key())]
     Truncated {
@@ -120,6 +144,12 @@ pub enum JointFileError {
         /// The key, and where the object ends.
         at: TextPlace,
     },
+    /// A key that stands in an object again.
+    #[error("{at}: {}: found twice, expected this key once; take one of them out", at.path)]
+    Twice {
+        /// The second of the two.
+        at: TextPlace,
+    },
     /// A value of the wrong type.
     #[error("{at}: {}: {message}", at.key())]
     WrongType {
@@ -147,6 +177,15 @@ pub enum JointFileError {
         /// Everything that is wrong, at least one.
         problems: Vec<JointProblem>,
     },
+}
+
+/// How to get to a joint file from a list with so many of them.
+fn instead_of_list(joint_files: usize) -> &'static str {
+    match joint_files {
+        0 => "give the NAME.joint.json that `identify` wrote",
+        1 => "take the joint file that is in it out of the brackets [ ]",
+        _ => "write each of the joint files that are in it into a file of its own",
+    }
 }
 
 /// A place in the text of a joint file.

@@ -6,6 +6,7 @@
 
 mod about;
 mod at_preload;
+mod bracket;
 mod dofs;
 mod error;
 mod friction;

@@ -85,6 +85,14 @@ impl Joint {
 }
 
 impl MatrixPassivity {
+    /// What is said of a matrix that is not positive semidefinite, wherever a joint with it is met.
+    #[must_use]
+    pub fn finding(&self) -> String {
+        format!(
+            "{self}; expected it positive semidefinite: this joint can feed energy into a simulation"
+        )
+    }
+
     fn new(path: String, rows: &[Vec<f64>]) -> Self {
         let order = rows.len();
         let entry = |i: usize, j: usize| rows[i.min(j)].get(i.max(j)).copied().unwrap_or(0.0);

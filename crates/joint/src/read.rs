@@ -6,7 +6,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::{Value, error::Category};
 
-use super::{Format, JointFile, JointFileError, TextPlace};
+use super::{Format, JointFile, JointFileError, TextPlace, bracket};
 use bolted_joint_files::{Encoding, nearest, text_file};
 
 impl JointFile {
@@ -80,6 +80,7 @@ impl JointFile {
         }
         // Broken text is left to the reading proper, which tells more about it.
         let tree: Option<Value> = serde_json::from_str(text).ok();
+        bracket::refuse(text, tree.as_ref(), &origin)?;
         if let Some(tree) = &tree {
             check_version(tree, &origin)?;
         }
@@ -199,6 +200,10 @@ fn explain_data(at: TextPlace, message: &str) -> JointFileError {
         let TextPlace { origin, path, .. } = at;
         return JointFileError::NotAnObject { origin, path };
     }
+    if message.starts_with("duplicate field") {
+        let at = at_key(at, quoted.next().unwrap_or_default());
+        return JointFileError::Twice { at };
+    }
     let message = found_and_expected(message);
     JointFileError::WrongType { at, message }
 }
@@ -238,6 +243,11 @@ fn found_and_expected(message: &str) -> String {
         "sequence" => "a list",
         other => other,
     };
+    // floating point `1.5`, integer `2`, boolean `true`
+    let literal = found
+        .split_once('`')
+        .and_then(|(_, literal)| literal.strip_suffix('`'));
+    let found = literal.unwrap_or(found);
     format!("found {found}, expected {expected}")
 }
 

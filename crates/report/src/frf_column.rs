@@ -1,5 +1,6 @@
 //! One function in a figure: its name and resonances above, its magnitude, phase and residual over one another.
 
+use bolted_joint_statistics::upper_median;
 use num_complex::Complex64;
 
 use super::frf_figure::FrfPanel;
@@ -211,12 +212,10 @@ fn dots(samples: &[Sample], strip: &Strip) -> PathData {
     path
 }
 
-/// The middle one of the finite values, the upper one of two.
+/// Gaps are left out.
 fn median(samples: &[Sample]) -> Option<f64> {
-    let mut values: Vec<f64> = samples.iter().map(|sample| sample.1).collect();
-    values.retain(|value| value.is_finite());
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    let values = samples.iter().map(|sample| sample.1);
+    upper_median(values.filter(|value| value.is_finite()))
 }
 
 /// Two significant figures, or whole per cents.

@@ -24,10 +24,13 @@ pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
     let structures = model.structures.iter().map(|own| {
         let form = &own.form;
         format!(
-            "{}: {}, {} free; points {}",
+            "{}: {}, {} as a free body; points {}",
             own.name,
             counted(form.modes, "mode"),
-            form.rigid(),
+            match form.rigid() {
+                0 => "none".to_owned(),
+                rigid => format!("{rigid} of them"),
+            },
             some(&form.points, LISTED)
         )
     });
@@ -70,15 +73,15 @@ pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
         .take(LISTED)
         .map(|mode| {
             format!(
-                "{} Hz ({})",
+                "{} Hz, damping ratio {}",
                 short(mode.frequency_hz, 5),
                 short(mode.damping_ratio, 2)
             )
         })
         .collect();
-    shown.fact(
+    shown.facts_of(
         "modes",
-        format!("{} (damping ratio), small motion", told.join(", ")),
+        told.into_iter().chain(["all of small motion".to_owned()]),
     );
     for joint in &model.joints {
         let against = joint.file.reasons_against().iter();
@@ -87,6 +90,12 @@ pub(crate) fn shown(text: &StudyText) -> Result<Shown, ShowError> {
             .extend(against.map(|reason| format!("{}: {reason}", joint.name)));
     }
     shown.warnings.clone_from(&model.warnings);
+    for joint in &model.joints {
+        let passivity = joint.file.passivity();
+        let active = passivity.active();
+        let told = active.map(|matrix| format!("joint {}: {}", joint.name, matrix.finding()));
+        shown.warnings.extend(told);
+    }
     shown.facts_of("notes", model.notes.iter().cloned());
     shown.detail("name", model.name.clone());
     shown.detail(

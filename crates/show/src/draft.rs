@@ -248,8 +248,13 @@ fn frequency(all: &[&Candidate], many: &str) -> String {
     let [from, to] = (all.iter()).fold([0.0, f64::INFINITY], |[from, to]: [f64; 2], own| {
         [from.max(own.band_hz[0]), to.min(own.band_hz[1])]
     });
+    let reaches_farther = all.iter().any(|own| own.band_hz[1] > to);
+    let ends_it = |own: &&&Candidate| own.is_modal && own.band_hz[1] == to && reaches_farther;
+    let why = all.iter().find(ends_it).map_or_else(String::new, |own| {
+        format!("   # CHECK: the highest mode in {}", own.name)
+    });
     format!(
-        "[frequency]                           # Hz; {many}\nfrom = {}\nto = {}\n",
+        "[frequency]                           # Hz; {many}\nfrom = {}\nto = {}{why}\n",
         toml_float(from),
         toml_float(to),
     )

@@ -245,7 +245,7 @@ fn coherence(summary: &FileSummary, set: &FrfSet, shown: &mut Shown) {
     )];
     if let Some([least, median, most]) = summary.coherence_noise {
         told.push(format!(
-            "so σ/|H| is {:.2} % at the best line, {:.2} % at most, {:.0} % at the worst",
+            "so σ/|H| is {:.2} % at the best line, up to {:.2} % at half of the lines, {:.0} % at the worst",
             100.0 * least,
             100.0 * median,
             100.0 * most

@@ -7,7 +7,7 @@ use bolted_joint_dynamics::{DofKind, with_dofs};
 use bolted_joint_export::joint_curves;
 use bolted_joint_figures::html::escaped;
 use bolted_joint_figures::{Line, LineFigure, Scale};
-use bolted_joint_joint::{Friction, JointFile, OverPreload, unit};
+use bolted_joint_joint::{Friction, JointFile, MatrixPassivity, OverPreload, unit};
 use bolted_joint_report::ShownPicture;
 use bolted_joint_respond::HysteresisLoop;
 use serde_json::json;
@@ -24,10 +24,13 @@ pub(crate) fn shown(path: &Path) -> Result<Shown, ShowError> {
     let file = JointFile::read(path)?;
     let mut shown = Shown::of("joint file");
     tell(&file, &mut shown);
+    let passivity = file.passivity();
+    let active = passivity.active().map(MatrixPassivity::finding);
+    shown.warnings.extend(active);
     Ok(shown)
 }
 
-/// What a joint file says, also of one in an FMU.
+/// What a joint file says, also of one in an FMU, whose inspection warns of one that is active.
 pub(crate) fn tell(file: &JointFile, shown: &mut Shown) {
     let joint = &file.joint;
     shown.fact("name", &file.name);
@@ -115,14 +118,13 @@ pub(crate) fn tell(file: &JointFile, shown: &mut Shown) {
         shown.facts_of("notes", own.notes.iter().cloned());
     }
     let passivity = file.passivity();
-    for active in passivity.active() {
-        shown.warnings.push(format!(
-            "{active}: this joint can feed energy into a simulation"
-        ));
-    }
-    if passivity.is_passive() {
-        shown.fact("passive", "yes: it cannot feed energy into a simulation");
-    }
+    shown.fact(
+        "passive",
+        match passivity.is_passive() {
+            true => "yes: it cannot feed energy into a simulation",
+            false => "no, it is active: it can feed energy into a simulation",
+        },
+    );
     shown.reasons_against = file.reasons_against().to_vec();
     shown.detail("name", file.name.clone());
     shown.detail("dofs", joint.dofs.names());

@@ -6,7 +6,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use bolted_joint_files::text_table::{self, Cells};
-use bolted_joint_files::{Decimal, Encoding, inputs, text_file};
+use bolted_joint_files::{Decimal, Encoding, inputs, table_header, text_file};
 use bolted_joint_frf::{Container, begins_with_shapes};
 use bolted_joint_study::{Method, StudyText, TextKind};
 use zip::ZipArchive;
@@ -41,6 +41,8 @@ pub enum FileKind {
     Ssp,
     /// JSON that is no joint file.
     OtherJson,
+    /// A list, as in JSON.
+    List,
     /// A zip archive that is no FMU and has no arrays.
     OtherZip,
     /// A folder.
@@ -82,6 +84,12 @@ impl FileKind {
         let container = Container::told_by(path, &beginning);
         // a comment begins tables and TOML alike
         let is_named_table = ["csv", "tsv", "txt"].iter().any(|name| named(name));
+        if first == Some(&b'[')
+            && !is_named_table
+            && text(path).is_some_and(|text| of_json(&text) == Self::List)
+        {
+            return Self::List;
+        }
         if let Some(container) = container
             && (container != Container::Table || is_named_table)
         {
@@ -156,6 +164,13 @@ fn of_json(text: &str) -> FileKind {
         return FileKind::Draws;
     }
     let is_joint = match serde_json::from_str::<serde_json::Value>(text) {
+        Ok(serde_json::Value::Array(_)) => return FileKind::List,
+        Err(_) if text.trim_start().starts_with('[') => {
+            return match table_header(text) {
+                Some(_) => FileKind::Unknown,
+                None => FileKind::List,
+            };
+        }
         Ok(value) => {
             let format = value.get("format").and_then(serde_json::Value::as_str);
             format.is_some_and(|format| format.starts_with("bolted-joint/"))
@@ -216,6 +231,7 @@ impl fmt::Display for FileKind {
             Self::Fmu => f.write_str("an FMU"),
             Self::Ssp => f.write_str("a system of FMUs (SSP)"),
             Self::OtherJson => f.write_str("a JSON file"),
+            Self::List => f.write_str("a list, as in JSON"),
             Self::OtherZip => f.write_str("a zip archive"),
             Self::Folder => f.write_str("a folder"),
             Self::Pipe => f.write_str("a pipe or a device"),
@@ -252,6 +268,7 @@ pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
         | FileKind::Ssp
         | FileKind::Study(None) => Some(format!("bolted-joint show {path}")),
         FileKind::OtherJson
+        | FileKind::List
         | FileKind::OtherZip
         | FileKind::Folder
         | FileKind::Pipe
@@ -287,7 +304,7 @@ mod tests {
     fn files_are_told_by_what_is_in_them() {
         let folder = tempfile::tempdir().unwrap();
         #[rustfmt::skip]
-        let cases: [(&str, &[u8], FileKind); 20] = [
+        let cases: [(&str, &[u8], FileKind); 25] = [
             ("a.uff", b"    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("a.txt", b"\n    -1\n    58\n", FileKind::Functions(Container::Universal)),
             ("s.csv", b"time_s,displacement_m\n", FileKind::Table(TableKind::Decay)),
@@ -306,6 +323,11 @@ mod tests {
             ("t.toml", b"# a study\nname = \"a\"\n", FileKind::Unknown),
             ("s.json", b"method = 1\n", FileKind::Unknown),
             ("e.toml", b" \n", FileKind::Unknown),
+            ("l.json", b"[]", FileKind::List),
+            ("l", b"\n [{\"format\": \"bolted-joint/1\"}]", FileKind::List),
+            ("l.joint.json", b"[[1, 2],", FileKind::List),
+            ("h.joint.json", b"[frequency]\nfrom = 1\n", FileKind::Unknown),
+            ("s", b"[structures.a]\n", FileKind::Assembly),
             ("z.zip", b"PK\x03\x04", FileKind::OtherZip),
             ("z.fmu", b"PK\x03\x04", FileKind::Fmu),
         ];

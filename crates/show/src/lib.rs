@@ -23,6 +23,8 @@ mod tables;
 
 use std::path::Path;
 
+use bolted_joint_files::{table_header, text_file};
+use bolted_joint_joint::{JointFile, JointFileError};
 use bolted_joint_study::StudyText;
 
 pub use draft::{Draft, DraftError, draft};
@@ -55,6 +57,21 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
                 path: path.to_owned(),
             });
         }
+        FileKind::List => {
+            // the list that `show --json` prints is none of joint files
+            return Err(match JointFile::read(path) {
+                Err(
+                    error @ JointFileError::List {
+                        joint_files: 1.., ..
+                    },
+                ) => error.into(),
+                _ => ShowError::Kind {
+                    path: path.to_owned(),
+                    found: kind.to_string(),
+                },
+            });
+        }
+        FileKind::OtherJson if is_named_joint_file(path) => joint::shown(path)?,
         FileKind::Folder | FileKind::OtherJson | FileKind::OtherZip => {
             return Err(ShowError::Kind {
                 path: path.to_owned(),
@@ -64,6 +81,11 @@ pub fn show(path: &Path) -> Result<Shown, ShowError> {
     };
     path.clone_into(&mut shown.path);
     Ok(shown)
+}
+
+/// Whether a file is called what joint files are: then their reader says what is wrong with it.
+fn is_named_joint_file(path: &Path) -> bool {
+    path.to_string_lossy().ends_with(".joint.json")
 }
 
 /// What cannot be read is told by the reader whose it seems to be; what is read, and is of no kind, with the kinds that there are.
@@ -80,7 +102,16 @@ fn unknown(path: &Path) -> Result<Shown, ShowError> {
     if !path.exists() || is_blank {
         return functions::or_matrices(path);
     }
-    if extension.eq_ignore_ascii_case("toml") {
+    if is_named_joint_file(path) {
+        return joint::shown(path);
+    }
+    let begins_as_toml = || {
+        let text = text_file::beginning(path).unwrap_or_default();
+        table_header(&text).is_some()
+    };
+    // instruments write headers in brackets, too, into files of other names
+    let may_be_toml = extension.is_empty() || extension.eq_ignore_ascii_case("json");
+    if extension.eq_ignore_ascii_case("toml") || may_be_toml && begins_as_toml() {
         StudyText::read(path)?.method()?;
     }
     Err(ShowError::Kind {

@@ -122,7 +122,7 @@ fn walk(key: &str, value: &Value, files: &mut Vec<(String, String)>, lines: &mut
     match value {
         Value::Table(table) => {
             for (own, value) in table {
-                walk(&format!("{key}.{own}"), value, files, lines);
+                walk(&format!("{key}.{}", part(own)), value, files, lines);
             }
         }
         Value::String(name) if is_file(name) => files.push((key.to_owned(), name.clone())),
@@ -132,7 +132,7 @@ fn walk(key: &str, value: &Value, files: &mut Vec<(String, String)>, lines: &mut
                 .any(|own| own.is_table() || own.as_str().is_some_and(is_file)) =>
         {
             for (place, value) in list.iter().enumerate() {
-                walk(&format!("{key}.{place}"), value, files, lines);
+                walk(&format!("{key}[{place}]"), value, files, lines);
             }
         }
         other => {
@@ -141,6 +141,17 @@ fn walk(key: &str, value: &Value, files: &mut Vec<(String, String)>, lines: &mut
             let dots = if short.len() < text.len() { "…" } else { "" };
             lines.push(format!("{key} = {short}{dots}"));
         }
+    }
+}
+
+/// A part of a key, which stands in quotes where it is no word.
+fn part(key: &str) -> String {
+    let is_word = key
+        .chars()
+        .all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
+    match is_word {
+        true => key.to_owned(),
+        false => format!("{key:?}"),
     }
 }
 

@@ -2,6 +2,7 @@
 //! is wrong in that test alone. What is wrong at A or B is told before the joint is sought ([`misfits`](crate::misfits)).
 
 use bolted_joint_frf::Dof;
+use bolted_joint_statistics::upper_median;
 use bolted_joint_virtual_point::Role;
 use num_complex::Complex64;
 
@@ -222,6 +223,5 @@ fn beyond(role: Role) -> Role {
 /// Of finite numbers; `None` of none.
 pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.retain(|value| value.is_finite());
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    upper_median(values)
 }

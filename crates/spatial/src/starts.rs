@@ -5,6 +5,7 @@
 //! without knowing the joints, and so do the motions; f = D b between them is linear in K and C. Its residuals, weighted by what
 //! they do to the functions, lead near the lowest minimum from afar.
 
+use bolted_joint_statistics::upper_median;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use num_complex::Complex64;
 
@@ -133,7 +134,7 @@ fn balance(problem: &Problem, open: &[Open]) -> Vec<f64> {
     let motions = 0..MOTIONS * problem.links.sought().len();
     let of = |i: usize| {
         let sizes = open.iter().map(|open| open.seen[(i, i)].norm());
-        match median(sizes.collect()) {
+        match median(sizes) {
             0.0 => 0.0,
             size => size.recip(),
         }
@@ -308,7 +309,7 @@ impl Loads {
         let of = |joint: usize, part: usize| {
             Matrix6::from_fn(|i, j| {
                 let at = (MOTIONS * joint + i, MOTIONS * joint + j);
-                median(found.iter().map(|own| own[part][at]).collect())
+                median(found.iter().map(|own| own[part][at]))
             })
         };
         let joints = 0..problem.links.sought().len();
@@ -373,7 +374,6 @@ pub(crate) fn pseudo_inverse(
     }))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    upper_median(values).unwrap_or(f64::NAN)
 }

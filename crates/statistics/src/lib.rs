@@ -1,10 +1,13 @@
-//! Quantiles and functions of statistics that intervals and tests need, so that those who identify and those who predict take the
+//! Quantiles, medians and functions of statistics that intervals and tests need, so that those who identify and those who predict take the
 //! same ones.
 //!
 //! The distributions are those of `statrs`. Where its inverses are short of twelve digits, this crate makes up for it; its tests hold
 //! every function against SciPy.
 #![forbid(unsafe_code)]
 
+mod median;
+
+pub use median::{median, upper_median};
 use statrs::distribution::{ChiSquared, Continuous as _, ContinuousCDF as _, StudentsT};
 use statrs::function::gamma::{digamma, ln_gamma};
 

@@ -1,5 +1,7 @@
 //! Which lines of measured functions a study uses: one band or several, every line or every so many.
 
+use std::fmt;
+
 use super::{FrequencyTable, StudyError, StudyText};
 
 /// Fewer lines than every hundred-thousandth are none.
@@ -14,6 +16,77 @@ pub struct LineChoice {
     pub bands_hz: Vec<[f64; 2]>,
     /// Of these lines the first is used, and then every so many.
     pub every: usize,
+}
+
+/// By how much of the lines' distance an end has to be farther off to be out of the data's reach: files round their frequencies.
+const A_LINE: f64 = 1.001;
+
+impl LineChoice {
+    /// Every line of a range, Hz.
+    #[must_use]
+    pub fn every_line_of(range_hz: [f64; 2]) -> Self {
+        Self {
+            range_hz,
+            bands_hz: Vec::new(),
+            every: 1,
+        }
+    }
+
+    /// That the data, `of_what`, do not reach as far as the range that is stated, so that less of it is used; `None` where they do
+    /// to within a line. `used_hz` are the lines that are used, ascending, of each table that has lines of its own.
+    #[must_use]
+    pub fn cut_back<'l>(
+        &self,
+        used_hz: impl IntoIterator<Item = &'l [f64]>,
+        of_what: impl fmt::Display,
+    ) -> Option<String> {
+        // each end with the distance to the line beside it
+        let [mut first, mut last] = [[f64::INFINITY, 0.0], [0.0, 0.0]];
+        for lines in used_hz {
+            if let [begin, second, ..] = lines
+                && *begin < first[0]
+            {
+                first = [*begin, second - begin];
+            }
+            if let [.., before, end] = lines
+                && *end > last[0]
+            {
+                last = [*end, end - before];
+            }
+        }
+        let stated_hz = self.stated_range_hz();
+        let [from, to] = stated_hz;
+        let is_any = first[0] <= last[0];
+        let starts_late = from.is_some_and(|from| first[0] - from > A_LINE * first[1]);
+        let ends_early = to.is_some_and(|to| to - last[0] > A_LINE * last[1]);
+        let stated = match stated_hz {
+            [Some(from), Some(to)] => format!("from {from} to {to} Hz"),
+            [Some(from), None] => format!("from {from} Hz"),
+            [None, Some(to)] => format!("to {to} Hz"),
+            [None, None] => return None,
+        };
+        let key = match self.bands_hz.is_empty() {
+            true => "frequency",
+            false => "frequency.bands",
+        };
+        let [low, high] = [first[0], last[0]].map(|hz| (hz * 1e6).round() / 1e6);
+        (is_any && (starts_late || ends_early)).then(|| {
+            format!(
+                "`{key}`: found {stated}, but the lines of {of_what} that are used go from {low} to {high} Hz only; state what was \
+                 measured, or give data that reach farther"
+            )
+        })
+    }
+
+    /// The ends of the range that the study states, Hz.
+    #[must_use]
+    pub fn stated_range_hz(&self) -> [Option<f64>; 2] {
+        let [from, to] = self.range_hz;
+        [
+            (from > f64::MIN_POSITIVE).then_some(from),
+            (to < f64::MAX).then_some(to),
+        ]
+    }
 }
 
 impl StudyText {
@@ -61,6 +134,44 @@ mod tests {
         let study = StudyText::new(text, Path::new("s.toml"));
         let table: FrequencyTable = study.tables().unwrap();
         study.line_choice(&table).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn a_range_beyond_the_data_is_told_by_more_than_a_line() {
+        let lines: Vec<f64> = (20..=400).map(|line| 0.5 * f64::from(line)).collect();
+        #[rustfmt::skip]
+        let cases = [
+            ("from = 10\nto = 200", None),
+            ("from = 9.6\nto = 200.4", None),
+            ("from = 9.5\nto = 200.5", None),
+            ("", None),
+            ("from = 5", Some("`frequency`: found from 5 Hz")),
+            ("from = 1\nto = 200", Some("`frequency`: found from 1 to 200 Hz, but the lines of t.uff that are used go from 10 to 200 Hz only")),
+            ("to = 900", Some("`frequency`: found to 900 Hz")),
+            ("bands = [[10, 50], [90, 900]]", Some("`frequency.bands`: found from 10 to 900 Hz")),
+        ];
+        for (text, said) in cases {
+            let told = of(text).unwrap().cut_back([&lines[..]], "t.uff");
+            match (told, said) {
+                (told, None) => assert_eq!(told, None, "{text}"),
+                (told, Some(said)) => assert!(
+                    told.as_ref().is_some_and(|told| told.contains(said)),
+                    "{text}: {told:?}"
+                ),
+            }
+        }
+        // of several tables the one that reaches farthest counts, with its own lines
+        let choice = of("from = 10\nto = 400").unwrap();
+        let other = [250.0, 300.0, 350.0];
+        assert_eq!(choice.cut_back([&lines[..], &other], "both"), None);
+        // every hundredth line: none is missing where the next one would be beyond
+        let thin: Vec<f64> = lines.iter().copied().step_by(100).collect();
+        assert_eq!(
+            of("to = 200\nevery = 100")
+                .unwrap()
+                .cut_back([&thin[..]], "t"),
+            None
+        );
     }
 
     #[test]

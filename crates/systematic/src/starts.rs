@@ -1,5 +1,7 @@
 //! Where searches begin beside the joint that an estimate without causes finds: errors of the set-up can move that far away.
 
+use bolted_joint_statistics::upper_median;
+
 use super::cause::Side;
 use super::experiment::Experiment;
 use super::line::{Point, Task};
@@ -80,9 +82,5 @@ fn typical(task: &Task<'_>) -> Option<Vec<f64>> {
             values.push((a[(dof, dof)] + b[(dof, dof)]).norm().recip());
         }
     }
-    let median = |values: &mut Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
-    stiffness.iter_mut().map(median).collect()
+    stiffness.into_iter().map(upper_median).collect()
 }

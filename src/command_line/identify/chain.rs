@@ -59,6 +59,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
             "starts": { "tried": found.starts[0], "agreeing": found.starts[1] },
             "usable": found.reasons_against.is_empty(),
             "reasons_against": found.reasons_against,
+            "warnings": found.warnings,
         });
         print(&serde_json::to_string_pretty(&value)?)?;
     } else {

@@ -47,7 +47,8 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let written = written.map(|_| Timestamp::from_environment()).transpose()?;
     let study = watched("reading", || SpatialStudy::of(study))?;
     check_output(&arguments.output, &[&arguments.study])?;
-    warn(&study.advice());
+    let advice = study.advice();
+    warn(&advice);
     let phases = watched("looking at phases", || study.phases())?;
     warn(&phases);
     let misfits = watched("looking at places", || study.misfits())?;
@@ -56,7 +57,7 @@ pub(super) fn run(arguments: &IdentifyArguments, study: &StudyText) -> Result<()
     let mut found = watched("identifying", || study.identify(&misfits))?;
     warn(&found.warnings);
     // told before the search; a report has them too
-    found.warnings.extend(phases);
+    found.warnings.extend(advice.into_iter().chain(phases));
     warn(not_determined(&found).as_slice());
     warn(found.overstated_noise(&study).as_slice());
     let file = found.joint_file(&study);

@@ -49,7 +49,9 @@ fn what_is_no_study_is_said_to_be_none() {
         (PNG, ["found binary data (byte 0)", "expected a study (TOML)"]),
         (b"method = \"frf\0\"", ["found binary data (byte 13)", "UTF-8"]),
         (BEAMS.split_at(cut).0.as_bytes(), ["line 8, column", "expected `}`"]),
-        (b"{ \"method\": 1 }", ["line 1, column 1", "{ \"method\": 1 }"]),
+        (b"{ \"method\": 1 }", ["found a JSON file, expected a study (TOML)", "check the path"]),
+        (b"[\"method\"]", ["found a list, as in JSON, expected a study (TOML)", "check the path"]),
+        (b"[a]\nbeam = 1\n", ["`method`: found nothing", "such as method = \"frf-decoupling\""]),
         (b"method = 1\nmethod = 2\n", ["line 2, column 1", "duplicate key"]),
     ];
     bench.refused_contents(IDENTIFY, "study.toml", &cases);

@@ -11,5 +11,6 @@ mod parts_row;
 mod phase;
 mod read;
 mod row;
+mod rows;
 
 pub use read::{read_csv, read_csv_from};

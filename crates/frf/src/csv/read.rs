@@ -1,7 +1,7 @@
 //! A table from its first line to its last, one line at a time.
 
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, BufReader};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use bolted_joint_files::Decimal;
@@ -12,14 +12,12 @@ use super::column::{Columns, Form};
 use super::header::{Above, Header, Keys, Names};
 use super::phase::Phases;
 use super::row::Row;
+use super::rows::Rows;
 use crate::gathered::Gathered;
 use crate::read::opened;
 use crate::statement::{Stated, Statement};
 use crate::summary::Statements;
 use crate::{Coherence, FileFormat, FrfError, FrfReading, ReadOptions, TableProblem};
-
-/// The longest line that is still taken for a table, bytes.
-const LONGEST_LINE: usize = 1 << 20;
 
 /// The last line on which a title may stand above the names.
 const TITLES: usize = 50;
@@ -63,14 +61,7 @@ pub fn read_csv_from(
     options: &ReadOptions,
 ) -> Result<FrfReading, FrfError> {
     let path = name.as_ref();
-    let mut rows = Rows {
-        reader,
-        path,
-        number: 0,
-        line: Vec::new(),
-        after_cr: false,
-        held: false,
-    };
+    let mut rows = Rows::of(reader, path);
     let mut keys = Keys::default();
     // what was refused first of the rows above the names
     let mut title = None;
@@ -232,105 +223,7 @@ struct Wanted<'header> {
     coherence: Gathered,
 }
 
-/// The lines of a file with their numbers.
-struct Rows<'path, R> {
-    reader: R,
-    path: &'path Path,
-    number: usize,
-    line: Vec<u8>,
-    /// Whether the current line ended in CR, behind which LF is no line of its own.
-    after_cr: bool,
-    /// Whether the current line is still to be read as numbers.
-    held: bool,
-}
-
 impl<R: BufRead> Rows<'_, R> {
-    /// On to the next line that is neither blank nor a comment; whether there is one.
-    fn advance_to_cells(&mut self) -> Result<bool, FrfError> {
-        if std::mem::take(&mut self.held) {
-            return Ok(true);
-        }
-        while self.advance()? {
-            let text = self.text();
-            if !is_blank(&text) && !text.starts_with('#') {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    fn advance(&mut self) -> Result<bool, FrfError> {
-        self.line.clear();
-        self.number += 1;
-        let read = self.read_line().map_err(|source| FrfError::Read {
-            path: self.path.to_owned(),
-            source,
-        })?;
-        if self.line.len() > LONGEST_LINE {
-            return Err(self.problem(TableProblem::whole(
-                format_args!("a line of more than {LONGEST_LINE} bytes"),
-                "a table; is this another format?",
-            )));
-        }
-        if self.number == 1 {
-            if self.line.starts_with(b"\xFF\xFE") || self.line.starts_with(b"\xFE\xFF") {
-                let expected = "UTF-8; save the table as \"CSV UTF-8\"";
-                return Err(self.problem(TableProblem::whole("UTF-16 text", expected)));
-            }
-            if self.line.starts_with(b"\xEF\xBB\xBF") {
-                self.line.drain(..3);
-            }
-        }
-        Ok(read)
-    }
-
-    /// Appends bytes up to LF, CR LF, or CR alone, as Excel for the Macintosh ends lines, or until they are more than a table has in
-    /// a line; whether there was anything.
-    fn read_line(&mut self) -> io::Result<bool> {
-        let mut is_any = false;
-        loop {
-            let bytes = match self.reader.fill_buf() {
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
-                bytes => bytes?,
-            };
-            let Some(&first) = bytes.first() else {
-                return Ok(is_any);
-            };
-            // the line before ended in CR, and this LF belongs to it
-            if std::mem::take(&mut self.after_cr) && first == b'\n' {
-                self.reader.consume(1);
-                continue;
-            }
-            is_any = true;
-            let end = bytes.iter().position(|byte| [b'\n', b'\r'].contains(byte));
-            let room = (LONGEST_LINE + 1).saturating_sub(self.line.len());
-            let taken = end.map_or(bytes.len(), |end| end + 1).min(room);
-            self.line.extend_from_slice(&bytes[..taken]);
-            self.after_cr = bytes[taken - 1] == b'\r';
-            let is_whole = end.is_some_and(|end| taken == end + 1);
-            self.reader.consume(taken);
-            if is_whole || taken == room {
-                return Ok(true);
-            }
-        }
-    }
-
-    /// The current line: UTF-8 where it is valid, Latin-1 where it is not.
-    fn text(&self) -> String {
-        match std::str::from_utf8(&self.line) {
-            Ok(text) => text.to_owned(),
-            Err(_) => self.line.iter().copied().map(char::from).collect(),
-        }
-    }
-
-    fn problem(&self, problem: TableProblem) -> FrfError {
-        FrfError::Csv {
-            path: self.path.to_owned(),
-            line: self.number,
-            problem: Box::new(problem),
-        }
-    }
-
     fn read_all(
         &mut self,
         header: &Header,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use bolted_joint_statistics::upper_median;
 use nalgebra::DVector;
 use num_complex::Complex64;
 
@@ -82,13 +83,7 @@ fn outside(lines: &Lines) -> Option<f64> {
         }
         (whole > 0.0).then(|| (left / whole).sqrt())
     });
-    median(parts)
-}
-
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    upper_median(parts.filter(|part| part.is_finite()))
 }
 
 #[cfg(test)]

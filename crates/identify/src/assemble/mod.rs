@@ -137,6 +137,8 @@ fn assembly_lines(study: &Study, reader: &mut Reader) -> Result<Lines, IdentifyE
         path,
         frequency_hz: assembly.frequency_hz(),
     };
+    let cut_back = study.lines.cut_back([axis.frequency_hz], path.display());
+    reader.warnings.extend(cut_back);
     let points = &study.points;
     let labelled = labelled_functions(&assembly, points, Completeness::Any, &study.assembly)?;
     reader.note(soundness::unsound(&labelled, points, path));

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use bolted_joint_statistics::upper_median;
 use num_complex::Complex64;
 
 use super::labelled::Labelled;
@@ -71,7 +72,7 @@ pub(super) fn unsound(functions: &Labelled, labels: &[Dof], path: &Path) -> Unso
 /// How two functions that should be the same differ; `None` where they are.
 fn not_reciprocal([one, other]: [&[Complex64]; 2]) -> Option<String> {
     let difference = |factor: f64| {
-        median(one.iter().zip(other).map(|(one, other)| {
+        usual(one.iter().zip(other).map(|(one, other)| {
             let other = other * factor;
             2.0 * (one - other).norm() / (one.norm() + other.norm())
         }))
@@ -80,7 +81,7 @@ fn not_reciprocal([one, other]: [&[Complex64]; 2]) -> Option<String> {
     if apart.is_nan() || apart <= RECIPROCAL {
         return None;
     }
-    let factor = median(one.iter().zip(other).map(|(one, other)| (one / other).re));
+    let factor = usual(one.iter().zip(other).map(|(one, other)| (one / other).re));
     if difference(factor) >= MORE_ALIKE * apart {
         return Some(format!(
             "is not reciprocal: at half of the lines it differs by more than {:.0} %",
@@ -94,10 +95,9 @@ fn not_reciprocal([one, other]: [&[Complex64]; 2]) -> Option<String> {
     })
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+/// The median of those that are numbers; NaN where none is.
+fn usual(values: impl Iterator<Item = f64>) -> f64 {
+    upper_median(values.filter(|value| value.is_finite())).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

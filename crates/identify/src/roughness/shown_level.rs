@@ -1,9 +1,9 @@
 //! The level of noise that many functions of one test have in common, where their lines are close enough to show it.
 
+use bolted_joint_statistics::median;
 use num_complex::Complex64;
 
 use super::{FEWEST_LINES, Function, ROUNDS, SHORTER, WHOLE};
-use crate::bands::median;
 use crate::noise::{Size, most_likely_level};
 
 /// Functions that are asked, evenly among all, and windows of each.
@@ -39,7 +39,7 @@ impl ShownLevel {
         let asked: Vec<&Vec<Complex64>> = functions.iter().step_by(stride).collect();
         let found = crate::parallel::map(&asked, |values| Found::of(frequency_hz, values));
         let found: Vec<Found> = found.into_iter().flatten().collect();
-        let of = |value: fn(&Found) -> f64| median(found.iter().map(value).collect());
+        let of = |value: fn(&Found) -> f64| median(found.iter().map(value));
         let [whole, shorter] = [of(|own| own.sizes[0])?, of(|own| own.sizes[1])?];
         Some(Self {
             is_noise: whole > LEAST && shorter < ALIKE * whole,
@@ -62,7 +62,7 @@ struct Found {
 
 impl Found {
     fn of(frequency_hz: &[f64], values: &[Complex64]) -> Option<Self> {
-        let middle = median(values.iter().map(|value| value.norm()).collect())?;
+        let middle = median(values.iter().map(|value| value.norm()))?;
         if middle == 0.0 {
             return None;
         }
@@ -121,7 +121,7 @@ mod tests {
             modes.sum()
         };
         let clean: Vec<Complex64> = frequency_hz.iter().map(|&hz| of(hz)).collect();
-        let middle = median(clean.iter().map(|value| value.norm()).collect()).unwrap();
+        let middle = median(clean.iter().map(|value| value.norm())).unwrap();
         let mut normal = || -> f64 { StandardNormal.sample(&mut *generator) };
         let noisy = clean.iter().map(|value| {
             let size = (relative * value.norm()).hypot(floor * middle) / 2.0_f64.sqrt();

@@ -64,6 +64,11 @@ pub struct SineLine {
 }
 
 impl SineRun {
+    /// Its frequencies, ascending, Hz.
+    pub(super) fn frequencies_hz(&self) -> Vec<f64> {
+        self.lines.iter().map(|line| line.omega / TAU).collect()
+    }
+
     /// The largest displacement, m.
     #[must_use]
     pub fn amplitude_m(&self) -> f64 {

@@ -2,6 +2,7 @@
 //! stiffness, and whether the law has anything to do with what was measured. What is merely worse than it could be is warned of
 //! instead.
 
+use bolted_joint_statistics::upper_median;
 use num_complex::Complex64;
 
 use super::model::ResponseUnknown;
@@ -173,7 +174,8 @@ impl LapResponse {
         let of_curves = |of: &dyn Fn(&[super::PointPrediction]) -> Vec<Expected>| {
             let fitted = self.backbones.iter().filter(|run| !run.left_out);
             let all = fitted.flat_map(|run| of(&run.points));
-            median(all.map(|own| (own.measured / own.predicted - 1.0).abs()))
+            let off = all.map(|own| (own.measured / own.predicted - 1.0).abs());
+            upper_median(off.filter(|off| off.is_finite()))
         };
         let frequencies =
             of_curves(&|points| points.iter().map(|point| point.frequency_hz).collect());
@@ -205,28 +207,19 @@ impl LapResponse {
             .filter(|run| run.used_for == super::Use::Fit);
         let misfits = fitted.filter_map(|run| {
             let values = run.lines.iter().zip(amplitudes_m.by_ref());
-            let values: Vec<f64> = values
-                .map(|(line, &amplitude_m)| {
-                    let (computed, _) =
-                        self.model
-                            .receptance(&self.fit.values, amplitude_m, line.omega);
-                    let measured =
-                        Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
-                    (measured - computed).norm() / measured.norm().max(computed.norm())
-                })
-                .collect();
-            Some((run.name.as_str(), median(values.into_iter())?))
+            let off = values.map(|(line, &amplitude_m)| {
+                let (computed, _) =
+                    self.model
+                        .receptance(&self.fit.values, amplitude_m, line.omega);
+                let measured =
+                    Complex64::from_polar(line.displacement_m / line.force_n, line.phase_rad);
+                (measured - computed).norm() / measured.norm().max(computed.norm())
+            });
+            Some((
+                run.name.as_str(),
+                upper_median(off.filter(|off| off.is_finite()))?,
+            ))
         });
         misfits.collect()
     }
-}
-
-/// The middle one of finite values.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    if values.is_empty() {
-        return None;
-    }
-    let middle = values.len() / 2;
-    Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }

@@ -44,6 +44,7 @@ impl LapResponse {
     #[must_use]
     pub fn warnings(&self, study: &LapResponseStudy) -> Vec<String> {
         let mut warnings = study.repeats.found.clone();
+        warnings.extend(study.cut_back.clone());
         warnings.extend(of_damping(study));
         warnings.extend(plausible::of_data(study));
         warnings.extend(self.of_sizes(study));

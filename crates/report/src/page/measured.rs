@@ -10,6 +10,7 @@ use bolted_joint_identify::{
     Bolts, FrfFile, JointModel, Level, Lines, NoiseLevel, Receptances, Rotation, Source,
     StatedFloor, Substructure,
 };
+use bolted_joint_study::LineChoice;
 
 pub(super) fn section(report: &IdentificationReport<'_>) -> String {
     let study = report.study;
@@ -52,7 +53,6 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         let name = "Presumed joint, a start of the search";
         rows.push(row(name, &beside::start(start)));
     }
-    let [from, to] = study.frequency_range_hz.map(number);
     let every = match study.lines.every {
         1 => String::new(),
         every => format!(", one line of {every}"),
@@ -63,7 +63,7 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         format!("{from} to {to} Hz")
     });
     let range = match bands.collect::<Vec<_>>() {
-        bands if bands.is_empty() => format!("{from} to {to} Hz"),
+        bands if bands.is_empty() => stated_range(&study.lines),
         bands => bands.join(", "),
     };
     rows.push(row("Frequency range", &format!("{range}{every}")));
@@ -78,6 +78,16 @@ pub(super) fn section(report: &IdentificationReport<'_>) -> String {
         files::section(report),
         assumptions(report)
     )
+}
+
+/// The range that a study states.
+fn stated_range(lines: &LineChoice) -> String {
+    match lines.stated_range_hz().map(|end| end.map(number)) {
+        [Some(from), Some(to)] => format!("{from} to {to} Hz"),
+        [Some(from), None] => format!("from {from} Hz"),
+        [None, Some(to)] => format!("to {to} Hz"),
+        [None, None] => "all that was measured".to_owned(),
+    }
 }
 
 fn row(name: &str, html: &str) -> String {

@@ -7,6 +7,7 @@
 mod apart;
 mod beam;
 mod estimate;
+mod joints;
 mod once;
 pub(crate) mod part;
 pub(crate) mod plan;

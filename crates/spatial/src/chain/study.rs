@@ -185,6 +185,7 @@ impl ChainStudy {
             Some(frequency_hz) => frequency_hz,
             None => reader.lines(&file.frequency, step_hz)?,
         };
+        assumed.extend(lines.cut_back([&frequency_hz[..]], "all files"));
         let sides = sides(study, &parts, &frequency_hz)?;
         let (mut links, mut scatters) = (Vec::new(), Vec::new());
         let (mut expected, mut models) = (Vec::new(), Vec::new());

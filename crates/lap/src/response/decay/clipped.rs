@@ -1,6 +1,8 @@
 //! Records whose peaks are cut off at the end of an instrument's range. They look like the law of a joint that hardens or
 //! softens, and fit none well.
 
+use bolted_joint_statistics::upper_median;
+
 use super::DecayProblem;
 
 /// Samples in a row at the end of the range that are a flat top, and such tops that are more than a sensor at rest.
@@ -50,9 +52,7 @@ fn drop_beside(values: &[f64], tops: &[(usize, usize)]) -> f64 {
         let both = before.into_iter().chain(values.get(to + 1));
         both.map(move |beside| values[from] - beside)
     });
-    let mut drops: Vec<f64> = beside.collect();
-    drops.sort_by(f64::total_cmp);
-    drops.get(drops.len() / 2).copied().unwrap_or(0.0)
+    upper_median(beside).unwrap_or(0.0)
 }
 
 /// The smallest step between neighbours that is one.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use bolted_joint_fourier::Transform;
+use bolted_joint_statistics::upper_median;
 use num_complex::Complex64;
 
 use super::{DecayProblem, Record};
@@ -116,9 +117,7 @@ impl Spectrum {
 }
 
 fn median(moduli: &[f64]) -> f64 {
-    let mut sorted = moduli.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    upper_median(moduli.iter().copied()).unwrap_or(0.0)
 }
 
 /// Whether a frequency is a multiple of the mode's own.

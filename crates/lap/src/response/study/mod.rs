@@ -20,7 +20,7 @@ use super::fit::Fit;
 use super::model::{Model, ResponseUnknown, Values};
 use super::terms::TermSet;
 use crate::error::LapError;
-use bolted_joint_study::{Method, StudyText, schema};
+use bolted_joint_study::{LineChoice, Method, StudyText, schema};
 
 pub use self::noise::Noise;
 
@@ -73,6 +73,8 @@ pub struct LapResponseStudy {
     pub backbones: Vec<BackboneRun>,
     /// Rows that stand in the data more than once.
     pub(in crate::response) repeats: Repeats,
+    /// That the stepped sines do not reach as far as the stated range, in words.
+    pub(in crate::response) cut_back: Option<String>,
     /// Remarks that go into the joint file.
     pub notes: Vec<String>,
 }
@@ -272,6 +274,9 @@ impl LapResponseStudy {
             })
         });
         let backbones: Vec<BackboneRun> = backbones.chain(decays).collect::<Result<_, _>>()?;
+        let all_hz: Vec<Vec<f64>> = sines.iter().map(SineRun::frequencies_hz).collect();
+        let cut_back = LineChoice::every_line_of(range_hz)
+            .cut_back(all_hz.iter().map(Vec::as_slice), "the stepped sines");
         repeats.between_sines(study, &sines)?;
         repeats.between_backbones(study, &backbones)?;
         let fitted = sines.iter().any(|run| run.used_for == Use::Fit)
@@ -285,6 +290,7 @@ impl LapResponseStudy {
         let found = Self {
             path: study.path().to_owned(),
             name: file.name,
+            cut_back,
             drive: file.model.drive,
             response: file.model.response,
             terms,

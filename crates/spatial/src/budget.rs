@@ -18,6 +18,10 @@ const MOST_OF_RIG: f64 = 0.2;
 /// What is exact is known so well, in parts of what a careful laboratory knows: a prior of no width has no weight.
 pub(crate) const EXACT: f64 = 1e-6;
 
+/// Likewise where a place that is exact by itself may be off as part of a whole: a micrometre, from which rounding leaves the whole's
+/// deviation.
+pub(crate) const EXACT_IN_A_WHOLE: f64 = 1e-3;
+
 /// How far a hammer hits from where it has hit in another test, and in which direction, and where a sensor is mounted again, with care.
 pub(crate) const TYPICAL_ANEW: Tolerance = Tolerance {
     position_m: 1e-3,
@@ -95,7 +99,18 @@ impl Reader<'_> {
         };
         // whether anything about a set-up can be wrong
         let has_places = sides.iter().any(|side| !side.parameters().is_empty());
-        let is_known = is_exact(&own) && anew == Anew::default() && common == Common::default();
+        let has_wholes = common != Common::default();
+        let is_known = is_exact(&own) && anew == Anew::default() && !has_wholes;
+        let own = match has_wholes {
+            true => Tolerance {
+                position_m: own.position_m.max(EXACT_IN_A_WHOLE * typical.position_m),
+                rotation_rad: own
+                    .rotation_rad
+                    .max(EXACT_IN_A_WHOLE * typical.rotation_rad),
+                gain: own.gain,
+            },
+            false => own,
+        };
         Ok(Budget {
             tolerances: (has_places && !is_known).then_some(Tolerances {
                 sensors: own,

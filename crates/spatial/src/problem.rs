@@ -7,7 +7,7 @@ use bolted_joint_virtual_point::{Parameter, Tolerances};
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::budget::EXACT;
+use crate::budget::EXACT_IN_A_WHOLE;
 use crate::error::SpatialError;
 use crate::links::{Links, Sought};
 use crate::prior::Common;
@@ -190,7 +190,7 @@ impl Problem {
                 .zip(side.deviations(tolerances));
             let is_open = all.filter(|(one, own)| {
                 let Parameter { place, change } = one.parameter;
-                *own > EXACT * Tolerances::TYPICAL.of(place, change)
+                *own > EXACT_IN_A_WHOLE * Tolerances::TYPICAL.of(place, change)
             });
             is_open.count()
         };

@@ -64,7 +64,7 @@ fn other_records_that_do_not_fit() {
          "validity.frequency_hz: found 512.0 to 5.0 Hz, expected the lower frequency first"),
         ("\"residual\": { \"relative_rms\": -1, \"lines\": 3 }",
          "residual.relative_rms: found -1.0, expected a root mean square of zero or more"),
-        ("\"residual\": { \"relative_rms\": 1, \"lines\": -3 }", "residual.lines: found integer `-3`, expected a whole number"),
+        ("\"residual\": { \"relative_rms\": 1, \"lines\": -3 }", "residual.lines: found -3, expected a whole number"),
         (
             "\"uncertainty\": { \"basis\": \"\", \"standard_deviation\": \
              { \"stiffness\": [[1, 2], [2, -1]], \"damping\": [[1, 2], [2, 1]] } }",

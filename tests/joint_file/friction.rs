@@ -133,7 +133,7 @@ fn laws_that_do_not_fit_are_refused_by_their_key() {
         ),
         (
             r#"[{ "dof": "y", "dof": "y", "law": "jenkins", "stiffness": 1e6, "slip_force": 3 }]"#,
-            ["joint.friction[0]", "duplicate field `dof`"],
+            ["joint.friction[0].dof: found twice", "take one of them out"],
         ),
         (r#"{ "dof": "y" }"#, ["joint.friction", "expected a list"]),
         (r#"["y"]"#, ["joint.friction[0]", "expected an object"]),

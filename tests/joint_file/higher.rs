@@ -48,7 +48,7 @@ fn terms_that_do_not_fit_are_refused_by_their_key() {
         (r#"{ "amplitude": [-1e-3, 1] }"#, ["joint.higher.amplitude[0]: found -0.001", "greater than zero"]),
         (r#"{ "quartic": [1, 1] }"#,
          ["joint.higher.quartic: unknown key", "quintic, septic, damping_quadratic, damping_quartic, amplitude"]),
-        (r#"{ "damping_quadratic": 5 }"#, ["joint.higher.damping_quadratic", "found integer `5`"]),
+        (r#"{ "damping_quadratic": 5 }"#, ["joint.higher.damping_quadratic", "found 5, expected a list"]),
     ];
     for (higher, fragments) in cases {
         has(&with(higher).unwrap_err(), &fragments);

@@ -18,6 +18,9 @@ use crate::normal::Normal;
 use crate::problem::{Problem, Unknowns};
 use crate::side::{MOTIONS, MayErr, Placed, Side, Test};
 
+/// Variance of an error that is known by itself, in parts of what it is.
+const KNOWN: f64 = 1e-4;
+
 /// How far what belongs together may be off as a whole; `None` where it is not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Common {
@@ -125,21 +128,37 @@ impl Wholes {
         let of_dof = |tolerance: &Tolerance| Dof::ALL.map(|dof| tolerance.of(Change::Pose(dof)));
         let each = deviations.into_iter().flat_map(of_dof);
         let own = DVector::from_iterator(MOTIONS * all.len(), each.map(|own| own * own));
+        Self::new(all, shares, own, variances)
+    }
+
+    /// From V, S and D.
+    fn new(
+        all: Vec<Whole>,
+        shares: DMatrix<f64>,
+        variances: DVector<f64>,
+        of_errors: &DVector<f64>,
+    ) -> Option<Self> {
         let mut weighted = shares.clone();
-        for (mut row, variance) in weighted.row_iter_mut().zip(variances) {
+        for (mut row, variance) in weighted.row_iter_mut().zip(of_errors) {
             row /= *variance;
         }
         let mut inner = shares.tr_mul(&weighted);
-        for n in 0..own.len() {
-            inner[(n, n)] += own[n].recip();
+        for (n, variance) in variances.iter().enumerate() {
+            inner[(n, n)] += variance.recip();
         }
         Some(Self {
             all,
             shares,
             weighted,
-            variances: own,
+            variances,
             inner: Cholesky::new(inner)?,
         })
+    }
+
+    /// The same beside errors with these variances.
+    fn beside(&self, of_errors: &DVector<f64>) -> Option<Self> {
+        let (shares, variances) = (self.shares.clone(), self.variances.clone());
+        Self::new(self.all.clone(), shares, variances, of_errors)
     }
 }
 
@@ -242,6 +261,22 @@ impl Prior {
     pub(crate) fn whole_count(&self) -> usize {
         let wholes = self.wholes.as_ref();
         wholes.map_or(0, |wholes| wholes.variances.len())
+    }
+
+    /// P with D of these errors in parts of what it is, less P: what is known more where they are known by themselves. What they are off
+    /// by as part of a whole stays unknown.
+    pub(crate) fn known_alone(&self, errors: &[usize]) -> Option<DMatrix<f64>> {
+        let wholes = self.wholes.as_ref()?;
+        let mut variances = self.variances.clone();
+        for &error in errors {
+            variances[error] *= KNOWN;
+        }
+        let known = Self {
+            first: self.first,
+            wholes: wholes.beside(&variances),
+            variances,
+        };
+        Some(known.information() - self.information())
     }
 
     /// Variance of w η for weights w of all errors: wᵀ (D + V S Vᵀ) w.

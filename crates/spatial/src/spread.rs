@@ -51,7 +51,8 @@ impl Spread {
             &by_noise + moved * follows.transpose()
         };
         let joint = with(&together);
-        let of_wholes = problem.prior().without_wholes().map(|more| {
+        let prior = problem.prior();
+        let of_wholes = prior.without_wholes().map(|more| {
             let mut known = information.clone();
             let mut own = known.view_mut((count, count), (errors, errors));
             own += more;
@@ -63,9 +64,14 @@ impl Spread {
             .map(|(name, columns)| {
                 // what is known of it no longer adds
                 let mut known = information.clone();
-                for column in columns {
-                    let place = count + column;
-                    known[(place, place)] += KNOWN * known[(place, place)];
+                if let Some(more) = prior.known_alone(&columns) {
+                    let mut own = known.view_mut((count, count), (errors, errors));
+                    own += more;
+                } else {
+                    for column in columns {
+                        let place = count + column;
+                        known[(place, place)] += KNOWN * known[(place, place)];
+                    }
                 }
                 let without = covariance(&known).map_or_else(|| joint.clone(), |all| with(&all));
                 (name, &joint - without)

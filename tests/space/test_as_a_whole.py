@@ -1,9 +1,12 @@
 """All places of a side that are off together, and a bolt beside its point: told, and estimated where the budget has them."""
 
 import json
+import re
 
 import numpy as np
+import planes
 import pytest
+import test_plane
 from chains import definite
 from frames import Rig, cross, row
 from test_plan import bolt
@@ -68,6 +71,25 @@ def test_places_that_are_off_as_a_whole_are_in_the_intervals(run, tmp_path):
     assert "in budget.origin how well" in " ".join(refused["reasons_against"])
 
 
+def test_in_a_plane_too(run, tmp_path):
+    """All places of each side by a point that is off along the beams; without the key ten of these twelve are refused."""
+    stiffness, damping = (np.array(own) for own in test_plane.SECOND)
+    upper = np.triu_indices(2)
+    truth = np.concatenate([stiffness[upper], damping[upper]])
+    errors = []
+    for draw in range(12):
+        rng = np.random.default_rng(draw)
+        planes.Rig(stiffness, damping).write(tmp_path, test_plane.FREQUENCIES[::2], 3e-3, rng)
+        parts = (tmp_path / "study.toml").read_text().split("[b]\n")
+        moved = [re.sub(r"position = \[([^,]+),", lambda own, by=by: f"position = [{float(own.group(1)) + by},", part)
+                 for part, by in zip(parts, 5e-4 * rng.normal(size=2), strict=True)]
+        budget = '[budget]\nposition = 2e-5\nrotation = "exact"\ngain = "exact"\norigin = { position = 5e-4, rotation = "exact" }\n'
+        (tmp_path / "study.toml").write_text("[b]\n".join(moved) + budget)
+        errors.append(deviations(found(run, tmp_path), truth))
+    # 72 numbers, those of a draw going together
+    assert 0.7 < np.sqrt(np.mean(np.square(errors))) < 1.4 and np.abs(errors).max() < 4
+
+
 def beside(folder, rng, shift, budget, exact=False):
     """A bolt elsewhere: K at the point is that of the bolt, moved."""
     moved = np.eye(6)
@@ -109,3 +131,6 @@ def test_what_the_keys_of_a_whole_hold_is_checked(run, tmp_path):
     off(tmp_path, 700, "orign = {}\n")
     refused = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
     assert "orign" in refused and "origin" in refused
+    off(tmp_path, 700, "joint = {}\n")
+    refused = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert "budget.joint" in refused and '"full"' in refused

@@ -116,6 +116,7 @@ length = 0.03
         ('[b.beam]', 'frf = "a.npz"\n[b.beam]', ["`b`", "several of frf, modal and beam"]),
         ("damping_ratio = 0.002", "damping_ratio = 2", ["damping_ratio", "2"]),
         ("node = 21", "node = 20", ["beam.points", "node 20 twice"]),
+        ('model = "full"\nlength = 0.03', 'model = "bolt"\nlength = 0.03\n[budget]\njoint = {}', ["budget.joint", "is a node", "on both sides"]),
     ],
 )
 def test_what_is_wrong_with_a_beam_is_told(run, tmp_path, old, new, fragments):

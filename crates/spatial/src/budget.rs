@@ -4,6 +4,7 @@ use bolted_joint_study::{Deviation, StudyError};
 use bolted_joint_virtual_point::{Tolerance, Tolerances};
 
 use crate::chain::part::{Part, PartInterface};
+use crate::links::Link;
 use crate::prior::Common;
 use crate::side::{Anew, Side};
 use crate::study::Reader;
@@ -52,6 +53,7 @@ impl Reader<'_> {
         table: &BudgetTable,
         sides: &[Side; 2],
         parts: &[Part],
+        links: &[Link],
     ) -> Result<Budget, StudyError> {
         let DeviationsTable {
             position,
@@ -97,6 +99,9 @@ impl Reader<'_> {
             origin: self.pose("origin", origin, TYPICAL_WHOLE)?,
             joint: self.pose("joint", joint, TYPICAL_WHOLE)?,
         };
+        if common.joint.is_some() {
+            self.ensure_places(sides, links)?;
+        }
         // whether anything about a set-up can be wrong
         let has_places = sides.iter().any(|side| !side.parameters().is_empty());
         let has_wholes = common != Common::default();
@@ -156,6 +161,34 @@ impl Reader<'_> {
         self.study
             .ensure(value <= MOST_DEVIATION, key, value, expected)?;
         Ok(value.max(EXACT * typical))
+    }
+
+    /// A joint is beside its point as far as all places about it are off by the opposite: it has to have a place, and these.
+    fn ensure_places(&self, sides: &[Side; 2], links: &[Link]) -> Result<(), StudyError> {
+        let key = "budget.joint";
+        let placed = links.iter().enumerate().filter(|(_, link)| link.is_placed);
+        let placed: Vec<_> = placed.collect();
+        self.study.ensure(
+            !placed.is_empty(),
+            key,
+            "no joint whose model says where it is",
+            "a joint that is sought with another model than \"full\", which is what it is, seen from anywhere; leave the key out",
+        )?;
+        for (number, link) in placed {
+            let mut own = sides.iter().filter_map(|side| side.interfaces.get(number));
+            let node = own.find(|placed| placed.points().is_none());
+            self.study.ensure(
+                node.is_none(),
+                key,
+                format_args!(
+                    "{} between interfaces of which {} is a node",
+                    link.key,
+                    node.map_or("", |placed| placed.name.as_str())
+                ),
+                "sensors and impacts on both sides, whose places tell where the joint is; leave the key out, or take model = \"full\"",
+            )?;
+        }
+        Ok(())
     }
 
     /// Positions that are off by as much as the rig measures are in another unit.

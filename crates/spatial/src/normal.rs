@@ -93,7 +93,7 @@ pub(crate) fn bend(
             let groups = here.dyads(line, &found);
             slopes.add_line(
                 problem.omega(line),
-                36 * problem.links.sought().len(),
+                MOTIONS * MOTIONS * problem.links.sought().len(),
                 &descent(&grids.at(line), &groups, &bent),
             );
         }

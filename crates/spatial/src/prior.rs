@@ -97,7 +97,8 @@ impl Wholes {
         let parameters: Vec<MayErr<'_>> = problem.sides.iter().flat_map(Side::parameters).collect();
         let (mut all, mut deviations, mut members) = (Vec::new(), Vec::new(), Vec::new());
         if let Some(tolerance) = &origin {
-            for placed in problem.sides.iter().flat_map(|side| &side.interfaces) {
+            let interfaces = problem.sides.iter().flat_map(|side| &side.interfaces);
+            for placed in interfaces.filter(|placed| placed.points().is_some()) {
                 all.push(Whole::Origin(placed.name.clone()));
                 deviations.push(tolerance);
                 members.push(vec![placed]);
@@ -257,10 +258,15 @@ impl Prior {
         Some(&wholes.weighted * inner)
     }
 
-    /// Numbers of what may be off as a whole.
+    /// Numbers of what may be off as a whole, as far as any place has a share in them: in a plane not all have.
     pub(crate) fn whole_count(&self) -> usize {
-        let wholes = self.wholes.as_ref();
-        wholes.map_or(0, |wholes| wholes.variances.len())
+        let Some(wholes) = &self.wholes else {
+            return 0;
+        };
+        let shares = wholes.shares.column_iter();
+        shares
+            .filter(|own| own.iter().any(|share| *share != 0.0))
+            .count()
     }
 
     /// P with D of these errors in parts of what it is, less P: what is known more where they are known by themselves. What they are off

@@ -96,7 +96,12 @@ impl SpatialStudy {
                 .as_ref()
                 .and_then(|assembly| unmatched(&sides, &observed, &assembly.set)),
         );
-        let budget = reader.budget(&file.budget, &sides, &chain.parts)?;
+        let budget = reader.budget(
+            &file.budget,
+            &sides,
+            &chain.parts,
+            std::slice::from_ref(&link),
+        )?;
         let may_show = [(&file.a, file.noise.a), (&file.b, file.noise.b)]
             .map(|(part, stated)| part.frf.is_some() && stated.is_none());
         let is_stated = matches!(chain.stated, Level::Relative(_));

@@ -262,7 +262,7 @@ impl ChainStudy {
             Some(table) => Some(reader.candidates(table, &parts)?),
             None => None,
         };
-        let budget = reader.budget(&file.budget, &sides, &parts)?;
+        let budget = reader.budget(&file.budget, &sides, &parts, &links)?;
         Ok(Self {
             path: study.path().to_owned(),
             name: file.name,

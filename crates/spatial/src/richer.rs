@@ -115,6 +115,18 @@ fn with_all_numbers(
     problem: &Problem,
     unknowns: &Unknowns,
 ) -> Result<Option<(Problem, Unknowns)>, SpatialError> {
+    let Some(all) = of_all_numbers(problem)? else {
+        return Ok(None);
+    };
+    let values = unknowns.0.as_slice();
+    let matrices = problem.only()?.matrices(values)?;
+    let mut own = all.links.nearest(&[matrices])?.as_slice().to_vec();
+    own.extend(&values[problem.joint_count()..]);
+    Ok(Some((all, Unknowns(DVector::from_vec(own)))))
+}
+
+/// The same with a joint of all numbers; `None` where the model has them all.
+pub(crate) fn of_all_numbers(problem: &Problem) -> Result<Option<Problem>, SpatialError> {
     let sought = problem.only()?;
     let full = JointModel::Full
         .parametrisation()?
@@ -122,14 +134,7 @@ fn with_all_numbers(
     if sought.model.count() == full.count() {
         return Ok(None);
     }
-    let values = unknowns.0.as_slice();
-    let mut own = Vec::new();
-    for matrix in sought.matrices(values)? {
-        own.extend(full.nearest(&matrix, sought.link.length_m)?.unknowns);
-    }
-    own.extend(&values[problem.joint_count()..]);
-    let number = sought.number;
     let mut all = problem.clone();
-    all.links.0[number].numbers = Numbers::Unknown(full);
-    Ok(Some((all, Unknowns(DVector::from_vec(own)))))
+    all.links.0[sought.number].numbers = Numbers::Unknown(full);
+    Ok(Some(all))
 }

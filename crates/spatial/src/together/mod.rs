@@ -5,6 +5,7 @@
 //! each step begins near its end. Starts are those beside the errors that each structure tells by itself, and those without
 //! errors: where one kind leads astray, the other one often does not.
 
+mod by_all_numbers;
 mod compare;
 mod down;
 
@@ -79,7 +80,10 @@ pub(crate) fn together(
     };
     let is_enough = match is_in_doubt {
         true => searches.compare(compared(&beside, &alone))?,
-        false => searches.follow(tries.by_ref().take(at_first).flatten()),
+        false => {
+            searches.follow(tries.by_ref().take(at_first).flatten())
+                || !matches!(extent, Extent::First) && searches.by_all_numbers(&likely)?
+        }
     };
     if !is_enough {
         let is_all = match extent {

@@ -70,11 +70,16 @@ fn is_oscillator(set: &FrfSet, pairs: &[(&str, &str, f64)], tolerance: f64) {
     }
 }
 
-/// γ² = 1/(1 + 0.01 i) and ten averages, so that (1 − γ²)/(n γ²) is 0.001 i.
+/// γ² = 1/(1 + 0.01 i) and ten averages: |H|² (1 − γ²)/(n γ²) is 0.001 i |H|², of which three lines together are multiplied by
+/// n/(3 (n − 1) − 1).
 fn has_variance(set: &FrfSet, tolerance: f64) {
     let variance = set.relative_variance(dof("11:Y"), dof("2:Y")).unwrap();
     assert_eq!(variance.len(), 7);
-    for (index, found) in variance.iter().enumerate() {
-        near(*found, 1e-3 * (index + 1) as f64, tolerance);
+    let power = |line: usize| oscillator(set.frequency_hz()[line]).norm_sqr();
+    for (line, found) in variance.iter().enumerate() {
+        let first = line.saturating_sub(1).min(4);
+        let three = (first..first + 3).map(|line| 1e-3 * (line + 1) as f64 * power(line));
+        let expected = 10.0 / 26.0 * three.sum::<f64>() / power(line);
+        near(found / expected, 1.0, 100.0 * tolerance);
     }
 }

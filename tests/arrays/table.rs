@@ -151,9 +151,10 @@ fn coherences_may_be_in_a_table_of_their_own() {
         set.coherence(dof("1:Y"), dof("2:Y")),
         Some([0.5, 1.0].as_slice())
     );
-    // (1 − 0.9)/(10 · 0.9)
+    // |H|² (1 − γ²)/(n γ²) is 0.1/9 and 4·0.2/8; both lines together times n/(2 (n − 1) − 1)
     let variance = set.relative_variance(dof("3:Y"), dof("2:Y")).unwrap()[0];
-    assert!((variance - 0.1 / 9.0).abs() < 1e-15, "{variance}");
+    let expected = (0.1 / 9.0 + 0.1) * 10.0 / 17.0;
+    assert!((variance / expected - 1.0).abs() < 1e-14, "{variance}");
     let no_coherence = read(functions).unwrap();
     let refused = read(functions)
         .unwrap()

@@ -49,7 +49,7 @@ fn every_variant_that_pyuff_writes_gives_the_oscillator() {
 #[test]
 fn binary_and_ascii_sets_coherence_and_others_stand_in_any_order() {
     let options = ReadOptions {
-        averages: Some(10.0),
+        averages: Some(30.0),
         ..ReadOptions::default()
     };
     let reading = read_uff58(own_file("coherence.uff"), &options).unwrap();
@@ -64,12 +64,12 @@ fn binary_and_ascii_sets_coherence_and_others_stand_in_any_order() {
         let found = set.receptance(response, y2).unwrap();
         is_oscillator(&found, set.frequency_hz(), factor, 1e-11);
     }
-    // γ² = 1/(1 + 0.01 i), so that σ²/|H|² = (1 − γ²)/(n γ²) is 0.001 i
+    // γ² = 1/(1 + 0.01 i), so that σ²/|H|² = (1 − γ²)/((n − 2) γ²) is 0.01 i/28
     for response in [y11, y11.flipped()] {
         let variance = set.relative_variance(response, y2).unwrap();
         assert_eq!(set.relative_variance(y2, response).unwrap(), variance);
         for (index, found) in variance.iter().enumerate() {
-            near(*found, 1e-3 * (index + 1) as f64, 1e-9);
+            near(*found, 0.01 / 28.0 * (index + 1) as f64, 1e-9);
         }
     }
     assert_eq!(set.relative_variance(y12, y2), None);

@@ -38,6 +38,8 @@ impl FrfReading {
         }
         let left_out = reading.not_selected.clone();
         let set = reading.into_set()?;
+        let of_file = |remark| format!("{}: {remark}", functions.display());
+        told.extend(set.tells_too_little().map(of_file));
         for own in files {
             let belongs = |&(response, reference): &(Dof, Dof)| {
                 let read = set.functions().map(|own| (own.0, own.1));

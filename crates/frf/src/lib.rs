@@ -30,7 +30,7 @@ mod table_problem;
 mod uff;
 mod unit_label;
 
-pub use coherence::{Coherence, relative_variance};
+pub use coherence::{Coherence, absolute_variances, relative_variance};
 pub use csv::{read_csv, read_csv_from};
 pub use dof::{Direction, Dof, DofError, Sign};
 pub use error::FrfError;

@@ -26,8 +26,8 @@ pub struct Assessment {
     pub reduced_chi_squared: Option<f64>,
     /// Whether the noise was stated, so that χ² is a test.
     pub noise_is_stated: bool,
-    /// Whether coherence tells the variance of all of the assembly, and of the substructures where it is not stated. It is an estimate itself, so that
-    /// χ² does not reject: with n averages its mean is n/(n − 2).
+    /// Whether coherence tells the variance of all of the assembly, and of the substructures where it is not stated. It is an
+    /// estimate itself, of neighbouring lines together, so that χ² does not reject: noise may change from line to line.
     pub noise_is_known: bool,
     /// χ² too high, in its standard deviations.
     pub chi_squared_excess: f64,

@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
+use bolted_joint_frf::absolute_variances;
 use num_complex::Complex64;
 
-use super::by_coherence::variances_by_coherence;
 use super::layout::Place;
 use super::lines::Lines;
 use super::noise::{Floor, Noise, Of};
@@ -260,7 +260,7 @@ fn variances(lines: &Lines, places: &[Vec<(usize, usize)>]) -> Option<Vec<Vec<Ve
     let of_place = |&place: &(usize, usize)| {
         let index = lines.measured.iter().position(|&other| other == place)?;
         let power = |line: usize| lines.assembly[line][place].norm_sqr();
-        Some(variances_by_coherence(relative.get(index)?, power))
+        Some(absolute_variances(relative.get(index)?, power))
     };
     let of_entry = |places: &Vec<(usize, usize)>| places.iter().map(of_place).collect();
     places.iter().map(of_entry).collect()

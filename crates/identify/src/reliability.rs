@@ -33,7 +33,7 @@ pub(super) const TOLERABLE_UNREST: f64 = 0.3;
 /// The same below which nobody has to know of it.
 pub(super) const NOTABLE_UNREST: f64 = 0.05;
 
-/// χ² per degree of freedom up to which coherence, an estimate itself, accounts for a residual: n/(n − 2) of four averages.
+/// χ² per degree of freedom up to which coherence, an estimate of neighbouring lines together, accounts for a residual.
 const MOST_OF_COHERENCE: f64 = 2.0;
 
 /// χ² per degree of freedom beyond which a residual is more than noise of the stated size.

@@ -3,7 +3,6 @@
 use bolted_joint_frf::{FrfError, FrfReading, FrfSet, Quantity, ReadOptions, read_frfs};
 use bolted_joint_study::{LineChoice, Paths, StudyError, UnitsTable};
 
-use crate::coherence::Told;
 use crate::study::Reader;
 
 /// Frequencies that are the same, in parts.
@@ -18,16 +17,9 @@ pub(crate) struct FileOfFunctions<'t> {
     pub(crate) units: Option<&'t UnitsTable>,
 }
 
-/// Functions at the lines that are used, and their noise, where coherence tells it.
-#[derive(Clone, Debug)]
-pub(crate) struct Measured {
-    pub(crate) set: FrfSet,
-    pub(crate) told: Option<Told>,
-}
-
-/// What was read of it, and what had to be assumed or is missing.
+/// What was read of it at the lines that are used, and what had to be assumed or is missing.
 pub(crate) struct Functions {
-    pub(crate) measured: Measured,
+    pub(crate) set: FrfSet,
     pub(crate) assumed: Vec<String>,
 }
 
@@ -54,7 +46,7 @@ impl Reader<'_> {
             all.collect()
         };
         let of_coherence = || file.coherence.map_or_else(|| Ok(Vec::new()), read);
-        let (set, mut assumed) = read(file.paths)
+        let (set, assumed) = read(file.paths)
             .and_then(FrfReading::joined)
             .and_then(|functions| functions.into_set_beside(of_coherence()?))
             .map_err(StudyError::of_file)?;
@@ -63,14 +55,12 @@ impl Reader<'_> {
             StudyError::model(self.study.path(), Some(&key), source)
         };
         let [from_hz, to_hz] = lines.range_hz;
-        let in_range = set.restricted_to(from_hz, to_hz).map_err(refused)?;
-        let set = in_range
+        let set = set
+            .restricted_to(from_hz, to_hz)
+            .map_err(refused)?
             .thinned(&lines.bands_hz, lines.every)
             .map_err(refused)?;
-        let (told, remark) = Told::of(in_range, set.frequency_hz());
-        assumed.extend(remark.map(|remark| format!("{key}: {remark}")));
-        let measured = Measured { set, told };
-        Ok(Functions { measured, assumed })
+        Ok(Functions { set, assumed })
     }
 
     pub(crate) fn same_lines(

@@ -13,7 +13,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::chain::ChainStudy;
 use crate::coherence::level_of;
-use crate::functions::Measured;
 use crate::level::size;
 use crate::links::Links;
 use crate::part_noise::{PartNoise, SaidBy, Shown};
@@ -94,7 +93,7 @@ impl SpatialStudy {
             chain
                 .assembly
                 .as_ref()
-                .and_then(|assembly| unmatched(&sides, &observed, &assembly.set)),
+                .and_then(|assembly| unmatched(&sides, &observed, assembly)),
         );
         let budget = reader.budget(
             &file.budget,
@@ -105,7 +104,7 @@ impl SpatialStudy {
         let may_show = [(&file.a, file.noise.a), (&file.b, file.noise.b)]
             .map(|(part, stated)| part.frf.is_some() && stated.is_none());
         let is_stated = matches!(chain.stated, Level::Relative(_));
-        let of_parts = chain.parts.iter().map(|part| part.told.is_some());
+        let of_parts = chain.parts.iter().map(|part| part.is_told);
         let has_coherence: Vec<bool> = of_parts.collect();
         let own = Self {
             motions: chain.motions,
@@ -350,7 +349,7 @@ impl Reader<'_> {
     pub(crate) fn observed(
         &self,
         sides: &[Side; 2],
-        assembly: Option<&Measured>,
+        assembly: Option<&FrfSet>,
     ) -> Result<(Vec<Observed>, usize), StudyError> {
         let [a, b] = sides;
         let places = |first: &[Dof], second: &[Dof]| -> Vec<(usize, Dof)> {
@@ -361,13 +360,12 @@ impl Reader<'_> {
         let mut observed = Vec::new();
         for &(row, response) in &rows {
             for &(column, reference) in &columns {
-                let found = assembly.map(|all| all.set.receptance(response, reference));
+                let found = assembly.map(|all| all.receptance(response, reference));
                 // the transposed function is another datum only where it was measured
                 let Some(Ok(function)) = found else { continue };
                 if !function.is_reciprocal() {
                     let one = Observed::new([row, column], function.values().to_vec());
-                    let told = assembly.and_then(|all| all.told.as_ref());
-                    let noise = told.and_then(|told| told.deviations(response, reference));
+                    let noise = assembly.and_then(|all| all.noise_deviations(response, reference));
                     observed.push(match noise {
                         Some(noise) => one.with_noise(&noise),
                         None => one,

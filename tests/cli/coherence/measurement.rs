@@ -17,8 +17,8 @@ use crate::rig::{
     points_of_b, receptance,
 };
 
-/// Averages behind every function.
-pub(super) const AVERAGES: f64 = 20.0;
+/// Averages behind every function: so many that each line tells its noise by itself.
+pub(super) const AVERAGES: f64 = 42.0;
 
 /// ω of each line.
 pub(super) static OMEGAS: LazyLock<Vec<f64>> =
@@ -54,15 +54,15 @@ impl Measured {
         let (mut values, mut told, mut variance) = (Vec::new(), Vec::new(), Vec::new());
         for line in 0..LINES {
             let (exact, gamma) = (exact(OMEGAS[line]), gamma_squared(line));
-            // σ²/|H|² = (1 − γ²)/(n γ²)
-            let own = exact.norm_sqr() * (1.0 - gamma) / (AVERAGES * gamma);
+            // σ²/|H|² = (1 − γ²)/((n − 2) γ²), whose inverse has the mean of that of the variance
+            let own = exact.norm_sqr() * (1.0 - gamma) / ((AVERAGES - 2.0) * gamma);
             let part = own.sqrt() * FRAC_1_SQRT_2;
             let mut normal = || -> f64 { StandardNormal.sample(generator) };
             let value = exact + Complex64::new(part * normal(), part * normal());
             let value = Complex64::new(rounded(value.re), rounded(value.im));
-            // γ²/(1 − γ²) = |Ĥ|²/(n σ²)
+            // γ²/(1 − γ²) = |Ĥ|²/((n − 2) σ²)
             told.push(rounded(
-                value.norm_sqr() / (value.norm_sqr() + AVERAGES * own),
+                value.norm_sqr() / (value.norm_sqr() + (AVERAGES - 2.0) * own),
             ));
             values.push(value);
             variance.push(own);

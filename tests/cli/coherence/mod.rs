@@ -1,5 +1,5 @@
 //! Coherence and averages, from a file to the joint: estimate, deviations and χ² are those of a likelihood with
-//! σ² = |Ĥ|²(1 − γ²)/(n γ²), computed without the program.
+//! σ² = |Ĥ|²(1 − γ²)/((n − 2) γ²), computed without the program.
 
 mod likelihood;
 mod measurement;
@@ -108,7 +108,7 @@ fn every_format_carries_coherence_and_averages() {
         (
             "measured.uff",
             universal_file(&functions).into_bytes(),
-            "averages = 20\n",
+            "averages = 42\n",
         ),
         ("measured.csv", table(&functions).into_bytes(), ""),
         ("measured.npz", archive(&functions), ""),
@@ -125,21 +125,23 @@ fn the_number_of_averages_sets_the_deviations() {
     let functions = assembly(3, varied);
     let with = |averages: f64| {
         let bench = bench("measured.csv", &format!("averages = {averages}\n"));
-        // The study has the last word over the 20 of the table.
+        // The study has the last word over the 42 of the table.
         bench.write("measured.csv", table(&functions));
         identified(&bench)
     };
-    let [few, right, many] = [5.0, AVERAGES, 80.0].map(with);
+    let [few, right, many] = [22.0, AVERAGES, 82.0].map(with);
     let chi = chi_squared(&right);
-    for (file, factor) in [(&few, 0.25), (&many, 4.0)] {
+    for (file, factor) in [(&few, 0.5), (&many, 2.0)] {
         assert!((chi_squared(file) / (factor * chi) - 1.0).abs() < 1e-9);
         let moved = (estimate(file) - estimate(&right)).component_div(&deviation(&right));
         assert!(moved.amax() < 1e-6, "{moved}");
     }
-    // A quarter of the averages: twice the deviation of noise that is believed.
+    // Half of n − 2: √2 times the deviation of noise that is believed.
     let ratio = deviation(&few).component_div(&deviation(&right)) * chi.max(1.0).sqrt();
     assert!(
-        ratio.iter().all(|ratio| (ratio - 2.0).abs() < 1e-6),
+        ratio
+            .iter()
+            .all(|ratio| (ratio - 2.0_f64.sqrt()).abs() < 1e-6),
         "{ratio}"
     );
     assert!(few["uncertainty"]["inflation"].is_null());
@@ -153,7 +155,7 @@ fn the_number_of_averages_sets_the_deviations() {
         "{ratio}"
     );
     let inflation = many["uncertainty"]["inflation"].as_f64().unwrap();
-    assert!((inflation / (4.0 * chi).sqrt() - 1.0).abs() < 1e-9);
+    assert!((inflation / (2.0 * chi).sqrt() - 1.0).abs() < 1e-9);
 }
 
 #[test]
@@ -166,7 +168,7 @@ fn functions_of_low_coherence_count_for_little() {
         bench.write("measured.uff", universal_file(&functions));
         identified(&bench)
     };
-    let weighted = with("averages = 20\n");
+    let weighted = with("averages = 42\n");
     agree(&weighted, &fit(&functions));
     // Without averages the coherence says nothing, and every line counts alike.
     let alike = with("");
@@ -198,7 +200,7 @@ fn a_substructure_has_its_own_coherence() {
     }
     let functions = assembly(22, |_, _, _| 0.999);
     let with = |of_a_believed: &str| {
-        let bench = bench("measured.uff", "averages = 20\n");
+        let bench = bench("measured.uff", "averages = 42\n");
         bench.write("measured.uff", universal_file(&functions));
         bench.write("a.uff", universal_file(&of_a));
         let text = bench
@@ -207,7 +209,7 @@ fn a_substructure_has_its_own_coherence() {
         let text = replaced(
             &text,
             "frf = \"a.uff\"\n",
-            "frf = \"a.uff\"\naverages = 20\n",
+            "frf = \"a.uff\"\naverages = 42\n",
         );
         bench.write("study.toml", text);
         identified(&bench)

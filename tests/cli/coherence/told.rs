@@ -20,16 +20,16 @@ const COHERENT: &str = "of the assembly: from coherence, line by line";
 
 #[test]
 fn every_format_is_named_with_what_the_file_states() {
-    // γ² = 0.9 of 20 averages: √(0.1/(20·0.9)) = 7.45 %
+    // γ² = 0.9 of 42 averages: √(0.1/(42·0.9)) = 5.14 %
     let functions = silent_assembly();
     #[rustfmt::skip]
     let cases = [
-        ("measured.uff", universal_file(&functions).into_bytes(), "averages = 20\n",
-         ["universal file, 58 (ASCII)", "9", "receptance (file)", "SI (assumed: nobody states them)", "9 functions; 20 averages (study); <i>σ</i>/|<i>H</i>| from 7.45 % to 7.45 %, median 7.45 %"]),
+        ("measured.uff", universal_file(&functions).into_bytes(), "averages = 42\n",
+         ["universal file, 58 (ASCII)", "9", "receptance (file)", "SI (assumed: nobody states them)", "9 functions; 42 averages (study); <i>σ</i>/|<i>H</i>| from 5.14 % to 5.14 %, median 5.14 %"]),
         ("measured.csv", table(&functions).into_bytes(), "",
-         ["table (CSV)", "9", "receptance (file)", "m/N (file)", "9 functions; 20 averages (file); <i>σ</i>/|<i>H</i>| from 7.45 % to 7.45 %, median 7.45 %"]),
+         ["table (CSV)", "9", "receptance (file)", "m/N (file)", "9 functions; 42 averages (file); <i>σ</i>/|<i>H</i>| from 5.14 % to 5.14 %, median 5.14 %"]),
         ("measured.npz", archive(&functions), "",
-         ["NumPy archive (npz)", "9", "receptance (file)", "m/N (file)", "9 functions; 20 averages (file); <i>σ</i>/|<i>H</i>| from 7.45 % to 7.45 %, median 7.45 %"]),
+         ["NumPy archive (npz)", "9", "receptance (file)", "m/N (file)", "9 functions; 42 averages (file); <i>σ</i>/|<i>H</i>| from 5.14 % to 5.14 %, median 5.14 %"]),
     ];
     for (name, bytes, more, expected) in cases {
         let bench = bench(name, more);

@@ -18,6 +18,8 @@ pub struct FrfSet {
     frequency_hz: Vec<f64>,
     receptances: BTreeMap<(Dof, Dof), Vec<Complex64>>,
     gamma_squared: BTreeMap<(Dof, Dof), Vec<f64>>,
+    /// σ²/|H|² as these tell it, with lines beside them that are not in this set any more.
+    relative_variances: BTreeMap<(Dof, Dof), Vec<f64>>,
     averages: Option<f64>,
     /// Pairs that the file has but nobody asked for.
     left_out: BTreeSet<(Dof, Dof)>,
@@ -69,6 +71,7 @@ impl FrfSet {
             frequency_hz,
             receptances,
             gamma_squared: BTreeMap::new(),
+            relative_variances: BTreeMap::new(),
             averages: None,
             left_out: BTreeSet::new(),
         })
@@ -153,16 +156,16 @@ impl FrfSet {
         fn chosen<T: Copy>(values: &[T], lines: &[usize]) -> Vec<T> {
             lines.iter().map(|&line| values[line]).collect()
         }
-        let receptances = self.receptances.iter();
-        let gamma_squared = self.gamma_squared.iter();
+        type OfPairs<T> = BTreeMap<(Dof, Dof), Vec<T>>;
+        fn of_pairs<T: Copy>(all: &OfPairs<T>, lines: &[usize]) -> OfPairs<T> {
+            let all = all.iter();
+            all.map(|(&pair, own)| (pair, chosen(own, lines))).collect()
+        }
         Self {
             frequency_hz: chosen(&self.frequency_hz, lines),
-            receptances: receptances
-                .map(|(&pair, own)| (pair, chosen(own, lines)))
-                .collect(),
-            gamma_squared: gamma_squared
-                .map(|(&pair, own)| (pair, chosen(own, lines)))
-                .collect(),
+            receptances: of_pairs(&self.receptances, lines),
+            gamma_squared: of_pairs(&self.gamma_squared, lines),
+            relative_variances: of_pairs(&self.relative_variances, lines),
             averages: self.averages,
             left_out: self.left_out.clone(),
         }

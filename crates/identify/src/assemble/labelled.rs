@@ -165,7 +165,10 @@ pub(super) fn relative_variances(
 ) -> Option<Vec<Vec<f64>>> {
     measured
         .iter()
-        .map(|&(row, column)| set.relative_variance(labels[row], labels[column]))
+        .map(|&(row, column)| {
+            let own = set.relative_variance(labels[row], labels[column]);
+            own.map(<[f64]>::to_vec)
+        })
         .collect()
 }
 

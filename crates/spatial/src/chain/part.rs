@@ -11,7 +11,6 @@ use bolted_joint_virtual_point::{Impact, Places, Role, Sensor, SetUp, VirtualPoi
 use nalgebra::{DMatrix, Vector3};
 use num_complex::Complex64;
 
-use crate::coherence::Told;
 use crate::side::{Anew, Interface, Placed, Side};
 use crate::study::DIRECTIONS;
 
@@ -27,14 +26,20 @@ pub(crate) enum Source {
     Modes(ModalModel),
 }
 
+impl Source {
+    pub(crate) fn tells_noise(&self) -> bool {
+        matches!(self, Self::Functions(set) if set.tells_noise())
+    }
+}
+
 /// A structure.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     /// Its table in the study: `a`.
     pub(crate) name: String,
     pub(crate) source: Source,
-    /// Noise of its functions, where coherence tells it.
-    pub(crate) told: Option<Told>,
+    /// Whether the coherence of its functions tells their noise, and is used.
+    pub(crate) is_told: bool,
     /// In the order of the joints.
     pub(crate) interfaces: Vec<PartInterface>,
     /// Channels and impacts of an interface that is not coupled: they come first among what is measured.
@@ -306,11 +311,16 @@ impl Part {
 
     /// Deviation of the noise of each function at each line, where coherence tells that of all.
     fn noise(&self, rows: &[Row], columns: &[Row]) -> Option<Vec<DMatrix<f64>>> {
-        let told = self.told.as_ref()?;
+        let Source::Functions(set) = &self.source else {
+            return None;
+        };
+        if !self.is_told {
+            return None;
+        }
         let own = |rows: &[Row]| rows.iter().map(Row::as_own).collect::<Option<Vec<Dof>>>();
         let (responses, references) = (own(rows)?, own(columns)?);
         let functions = references.iter().flat_map(|&reference| {
-            let of = move |&response: &Dof| told.deviations(response, reference);
+            let of = move |&response: &Dof| set.noise_deviations(response, reference);
             responses.iter().map(of)
         });
         let functions = functions.collect::<Option<Vec<_>>>()?;

@@ -8,8 +8,7 @@ use bolted_joint_virtual_point::Impact;
 use super::beam::computed;
 use super::part::{Part, PartInterface, Source};
 use super::plan::candidates::{Candidate, Thing};
-use crate::coherence::Told;
-use crate::functions::{FileOfFunctions, Measured};
+use crate::functions::FileOfFunctions;
 use crate::study::Reader;
 use crate::tables::{CandidatesTable, ImpactTable, PartTable, SensorTable};
 
@@ -57,7 +56,7 @@ impl Reader<'_> {
         table: &PartTable,
         lines: &LineChoice,
         assumed: &mut Vec<String>,
-    ) -> Result<(Source, Option<Told>), StudyError> {
+    ) -> Result<Source, StudyError> {
         self.study.beside_functions_only(
             name,
             table.frf.is_some(),
@@ -79,18 +78,17 @@ impl Reader<'_> {
                 };
                 let read = self.functions(name, &file, lines)?;
                 assumed.extend(read.assumed);
-                let Measured { set, told } = read.measured;
-                Ok((Source::Functions(set), told))
+                Ok(Source::Functions(read.set))
             }
             (None, Some(path), None) => {
                 let model = ModalModel::read(&self.study.resolved(path));
-                Ok((Source::Modes(model.map_err(StudyError::of_file)?), None))
+                Ok(Source::Modes(model.map_err(StudyError::of_file)?))
             }
             (None, None, Some(beam)) => {
                 self.plausible(name, beam)?;
                 let model = computed(beam).modal();
                 let refused = |source| StudyError::model(self.study.path(), Some(name), source);
-                Ok((Source::Modes(model.map_err(refused)?), None))
+                Ok(Source::Modes(model.map_err(refused)?))
             }
             (None, None, None) => self.study.refuse(
                 name,
@@ -142,7 +140,7 @@ impl Reader<'_> {
         &self,
         name: &str,
         table: &PartTable,
-        (source, told): (Source, Option<Told>),
+        source: Source,
         is_measured: bool,
     ) -> Result<Part, StudyError> {
         // of the first part towards the second one, of the others towards the one before
@@ -165,9 +163,9 @@ impl Reader<'_> {
         }
         Ok(Part {
             name: name.to_owned(),
-            source,
             // a plan goes by the noise that is to be expected
-            told: told.filter(|_| is_measured),
+            is_told: is_measured && source.tells_noise(),
+            source,
             interfaces,
             beside: None,
             responses: self.dofs(&format!("{name}.responses"), &table.responses)?,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bolted_joint_frf::Dof;
+use bolted_joint_frf::{Dof, FrfSet};
 use bolted_joint_joint::InputFile;
 use bolted_joint_space::Motions;
 use bolted_joint_study::{Method, Paths, StudyError, StudyText, input_file};
@@ -13,7 +13,7 @@ use super::part::{Part, Source, files_of, joined};
 use super::plan::candidates::Candidate;
 use super::response::Scatter;
 use crate::coherence::level_of;
-use crate::functions::{FileOfFunctions, Measured};
+use crate::functions::FileOfFunctions;
 use crate::links::{Links, Numbers};
 use crate::part_noise::PartNoise;
 use crate::problem::{Level, Observed, Problem};
@@ -51,7 +51,7 @@ pub struct ChainStudy {
     pub(crate) parts: Vec<Part>,
     pub(crate) problem: Problem,
     /// What was measured of the assembly.
-    pub(crate) assembly: Option<Measured>,
+    pub(crate) assembly: Option<FrfSet>,
     /// What had to be assumed of the files.
     pub(crate) assumed: Vec<String>,
     /// What each joint that is sought is taken to be: its table, and K and C where they are stated.
@@ -160,17 +160,17 @@ impl ChainStudy {
                 };
                 let read = reader.functions("assembly", &own, &lines)?;
                 assumed.extend(read.assumed);
-                Some(read.measured)
+                Some(read.set)
             }
             None => None,
         };
         let is_measured = assembly.is_some();
-        let lines_of = |own: &Measured| own.set.frequency_hz().to_vec();
+        let lines_of = |own: &FrfSet| own.frequency_hz().to_vec();
         let mut frequency_hz = assembly.as_ref().map(lines_of);
         let mut parts = Vec::new();
         for &(name, table) in &tables {
             let source = reader.source(name, table, &lines, &mut assumed)?;
-            if let (Source::Functions(set), _) = &source {
+            if let Source::Functions(set) = &source {
                 match &frequency_hz {
                     None => frequency_hz = Some(set.frequency_hz().to_vec()),
                     Some(expected) => {
@@ -207,7 +207,7 @@ impl ChainStudy {
         }
         let stated = reader.level(&file.noise)?;
         let mut level = stated;
-        if assembly.as_ref().is_some_and(|own| own.told.is_some())
+        if assembly.as_ref().is_some_and(|own| own.tells_noise())
             && let Ok((mut observed, _)) = reader.observed(&sides, assembly.as_ref())
         {
             let (told, remark) = level_of(stated, &mut observed);
@@ -350,7 +350,7 @@ pub(crate) fn sides(
 
 /// A remark on coherence of a part in a chain.
 fn of_no_use(part: &Part) -> Option<String> {
-    part.told.as_ref().map(|_| {
+    part.is_told.then(|| {
         format!(
             "{}: its coherence is not used: chains take the noise of the assembly's functions alone",
             part.name

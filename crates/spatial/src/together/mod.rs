@@ -18,7 +18,7 @@ use crate::fit::{Effort, Fit};
 use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::problem::{Problem, Unknowns};
 use crate::search::{
-    AS_LOW_BESIDE_ERRORS, BY_CHANCE, Extent, NOTHING, Searched, agreeing_with, by_chance,
+    AS_LOW_BESIDE_ERRORS, BY_CHANCE, CLEARLY, Extent, NOTHING, Searched, agreeing_with, by_chance,
 };
 use crate::starts::starts;
 
@@ -212,7 +212,7 @@ impl<'p> Searches<'p> {
                 let start = fit.unknowns.clone();
                 if let Ok(at_more) = Fit::of(&self.lines, start, self.level, Effort::Full) {
                     self.checked.push(at_more);
-                    if self.is_checked() || self.agreeing() > 1 {
+                    if self.is_explained_at_more(CLEARLY) || self.agreeing() > 1 {
                         self.best = Some(fit);
                         return true;
                     }
@@ -288,11 +288,10 @@ impl<'p> Searches<'p> {
         best.is_some_and(|best| best.cost > most * self.thin.numbers() as f64)
     }
 
-    /// Whether noise explains the latest of them at the lines of the estimate, too.
-    fn is_checked(&self) -> bool {
-        let latest = self.checked.last();
-        latest.is_some_and(|fit| {
-            fit.cost < by_chance(self.lines.numbers(), BY_CHANCE) && !self.is_rigid(fit)
+    /// Whether noise explains the lowest of them at the lines of the estimate, too, with so many deviations of χ².
+    fn is_explained_at_more(&self, deviations: f64) -> bool {
+        self.lowest_checked().is_some_and(|fit| {
+            fit.cost < by_chance(self.lines.numbers(), deviations) && !self.is_rigid(fit)
         })
     }
 
@@ -321,7 +320,7 @@ impl<'p> Searches<'p> {
                 self.is_left_by(lowest, BY_CHANCE) || self.is_the_only_one()
             }
             Some(_) if self.is_in_doubt => self.is_clear() || self.agreeing > 1,
-            Some(_) => self.is_checked() || self.agreeing() > 1,
+            Some(_) => self.is_explained_at_more(BY_CHANCE) || self.agreeing() > 1,
             None => {
                 let best = self.best.as_ref();
                 best.is_some_and(|best| self.agree(best) || self.explains(best))

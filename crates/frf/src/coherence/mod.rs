@@ -1,5 +1,9 @@
 //! Ordinary coherence, and the variance of a measured function that follows from it.
 
+mod pooled;
+
+pub(crate) use pooled::{pooled, window};
+
 use super::{Dof, FrfError};
 
 /// γ² this close to 1 cannot be told from 1: half a unit of the last digit that universal files print.
@@ -8,6 +12,9 @@ const NEAREST_TO_ONE: f64 = 5e-7;
 const LEAST: f64 = 1e-6;
 /// γ² above 1 by rounding alone.
 const ROUNDING: f64 = 1e-5;
+/// A measured |H|² counts for at least this part of the smaller one beside it: a value that got lost between others is not
+/// exact for that. Noise alone is hardly ever so small.
+const LEAST_OF_NEIGHBOURS: f64 = 1e-6;
 
 /// Ordinary coherence γ² of one measured function on the lines of its set, and how many averages stand behind it.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,13 +86,43 @@ pub fn relative_variance(gamma_squared: f64, averages: f64) -> f64 {
     (1.0 - gamma_squared) / (averages * gamma_squared)
 }
 
+/// σ² of a measured function at each line, from σ²/|H|² as coherence tells it there and its own |H|².
+///
+/// It is σ²/|H|² of coherence times the |H|² of the same measurement, which is Syy(1 − γ²)/(n Sff): what is left of the
+/// response, and independent of the error of H₁. Times a computed |H|² a value that errs upwards would have a smaller variance
+/// than one that errs downwards, and every estimate would err upwards.
+#[must_use]
+pub fn absolute_variances(relative: &[f64], power: impl Fn(usize) -> f64) -> Vec<f64> {
+    let lines = relative.len();
+    let absolute = |(line, relative): (usize, &f64)| relative * lifted(lines, line, &power);
+    relative.iter().enumerate().map(absolute).collect()
+}
+
+/// |H|² of a line, or what it counts for beside its neighbours.
+pub(crate) fn lifted(lines: usize, line: usize, power: impl Fn(usize) -> f64) -> f64 {
+    let beside = [line.checked_sub(1), Some(line + 1)];
+    let beside = beside.into_iter().flatten();
+    let beside = beside.filter(|&line| line < lines).map(&power);
+    let least = LEAST_OF_NEIGHBOURS * beside.fold(f64::INFINITY, f64::min);
+    let least = if least.is_finite() { least } else { 0.0 };
+    power(line).max(least)
+}
+
 #[cfg(test)]
 mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::Distribution;
 
-    use super::relative_variance;
+    use super::{absolute_variances, relative_variance};
+
+    #[test]
+    fn a_value_that_got_lost_is_not_exact() {
+        let power = [4.0, 0.0, 9.0];
+        let found = absolute_variances(&[0.1, 0.1, 0.2], |line| power[line]);
+        assert!((found[0] - 0.4).abs() < 1e-15 && (found[2] - 1.8).abs() < 1e-15);
+        assert!((found[1] - 0.1 * 4e-6).abs() < 1e-18, "{}", found[1]);
+    }
 
     #[test]
     fn coherence_gives_the_variance_of_averaged_spectra() {

@@ -40,11 +40,16 @@ const EXPECTED: f64 = 1.3;
 
 /// Stiffness in parts of the structures' own from which on a joint is as good as rigid: a search may have lost it there.
 const RIGID: f64 = 1e4;
+/// Likewise of a negative one.
+const NEGATIVE: f64 = 0.1;
 
 /// Starts of each kind that are followed before those beside the errors of the lowest search; and where something else is known to
 /// be wrong.
 const AT_FIRST: usize = 4;
 const LIKELY: usize = 2;
+
+/// Starts beside errors of the set-up where a motion of the joint got lost.
+const BESIDE_LOST: usize = 3;
 
 /// Minima that noise explains at the lines of the search and not at those of the estimate, after which no other is looked for.
 const MOST_CHECKED: usize = 6;
@@ -209,8 +214,7 @@ impl<'p> Searches<'p> {
             let lowest = self.came_to(&fit);
             // noise explains other minima as well at a few lines
             if self.is_stated && self.explains(&fit) {
-                let start = fit.unknowns.clone();
-                if let Ok(at_more) = Fit::of(&self.lines, start, self.level, Effort::Full) {
+                if let Ok(at_more) = self.at_more(&fit) {
                     self.checked.push(at_more);
                     if self.is_explained_at_more(CLEARLY) || self.agreeing() > 1 {
                         self.best = Some(fit);
@@ -235,6 +239,21 @@ impl<'p> Searches<'p> {
             }
         }
         false
+    }
+
+    /// The same at the lines of the estimate. Where a motion of the joint gets lost there, errors of the set-up may be right all the
+    /// same: searches begin beside them.
+    fn at_more(&self, fit: &Fit) -> Result<Fit, SpatialError> {
+        let own = Fit::of(&self.lines, fit.unknowns.clone(), self.level, Effort::Full)?;
+        if !self.is_rigid(&own) {
+            return Ok(own);
+        }
+        let beside = self.beside(&self.lines.errors(&own.unknowns))?;
+        let others = beside.into_iter().take(BESIDE_LOST);
+        let others = others.map(|(_, start)| Fit::of(&self.lines, start, self.level, Effort::Full));
+        let found = others.flatten().filter(|fit| !self.is_rigid(fit));
+        let lowest = found.min_by(|one, other| one.cost.total_cmp(&other.cost));
+        Ok(lowest.filter(|fit| fit.cost < own.cost).unwrap_or(own))
     }
 
     fn let_down(&self, way: Way, residual: f64, start: Unknowns) -> Option<Fit> {
@@ -370,12 +389,13 @@ fn lags(problem: &Problem, cost: f64) -> bool {
     cost > LAGGING * problem.numbers() as f64
 }
 
-/// Whether a joint is as good as rigid in a motion, beside the structures' own stiffnesses.
+/// Whether a joint is as good as rigid in a motion, beside the structures' own stiffnesses, or beyond that: the functions are smooth
+/// in 1/k, and past zero k is negative.
 fn is_rigid(problem: &Problem, balance: &[f64], unknowns: &Unknowns) -> bool {
     let values = unknowns.0.as_slice();
     (problem.links.sought_matrices(values)).is_ok_and(|[stiffness, _]| {
         let own = stiffness.diagonal();
         let mut pairs = own.iter().zip(balance);
-        pairs.any(|(own, balance)| own.abs() > RIGID * balance)
+        pairs.any(|(own, balance)| own.abs() > RIGID * balance || *own < -NEGATIVE * balance)
     })
 }

@@ -26,14 +26,15 @@ def turned(vector, angle):
     return vector + np.sin(size) * k @ vector + (1 - np.cos(size)) * k @ k @ vector
 
 
-def rows(rig, side, rng, shift, turn):
-    """Places and directions of a side by a point and axes that are off, and each a little by itself."""
+def rows(rig, side, rng, shift, turn, each=(1e-4, 2e-3, 2e-3)):
+    """Places and directions of a side by a point and axes that are off, and each by itself in place, direction and gain."""
     places, hits, directions = rig.sides[side]
+    position, rotation, gain = each
 
     def read(place, directions):
-        place = turned(place + 1e-4 * rng.normal(size=3), turn) + shift
-        angle = 2e-3 * rng.normal(size=3)
-        return [(1 + 2e-3 * rng.normal()) * row(place, turned(turned(d, angle), turn)) for d in directions]
+        place = turned(place + position * rng.normal(size=3), turn) + shift
+        angle = rotation * rng.normal(size=3)
+        return [(1 + gain * rng.normal()) * row(place, turned(turned(d, angle), turn)) for d in directions]
 
     channels = [own for place in places for own in read(place, np.eye(3))]
     impacts = [own for place, d in zip(hits, directions, strict=True) for own in read(place, [d])]

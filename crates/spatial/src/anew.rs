@@ -146,7 +146,7 @@ impl SpatialStudy {
     }
 
     /// Whether noise explains what is left: by its level where that is stated, else by what moves the interface.
-    fn is_explained(&self, found: &Found) -> Result<bool, SpatialError> {
+    pub(crate) fn is_explained(&self, found: &Found) -> Result<bool, SpatialError> {
         let left = found.joint.squares / found.joint.numbers as f64;
         let by_level = match self.level {
             Level::Relative(_) | Level::OfCoherence => left < EXPLAINED,

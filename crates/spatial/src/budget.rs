@@ -107,13 +107,7 @@ impl Reader<'_> {
         let has_wholes = common != Common::default();
         let is_known = is_exact(&own) && anew == Anew::default() && !has_wholes;
         let own = match has_wholes {
-            true => Tolerance {
-                position_m: own.position_m.max(EXACT_IN_A_WHOLE * typical.position_m),
-                rotation_rad: own
-                    .rotation_rad
-                    .max(EXACT_IN_A_WHOLE * typical.rotation_rad),
-                gain: own.gain,
-            },
+            true => beside_wholes(&own),
             false => own,
         };
         Ok(Budget {
@@ -209,6 +203,18 @@ impl Reader<'_> {
                  another (is it in millimetres?)"
             ),
         )
+    }
+}
+
+/// A tolerance of places that may be off as a whole as well.
+pub(crate) fn beside_wholes(own: &Tolerance) -> Tolerance {
+    let typical = Tolerance::TYPICAL;
+    Tolerance {
+        position_m: own.position_m.max(EXACT_IN_A_WHOLE * typical.position_m),
+        rotation_rad: own
+            .rotation_rad
+            .max(EXACT_IN_A_WHOLE * typical.rotation_rad),
+        gain: own.gain,
     }
 }
 

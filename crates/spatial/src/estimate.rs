@@ -127,6 +127,10 @@ impl SpatialStudy {
             Cow::Owned(_) => own.problem.told_anew(&found.best.unknowns),
             Cow::Borrowed(_) => Vec::new(),
         };
+        let of_whole = match &own {
+            Cow::Owned(anew) => self.better_as_a_whole(&rms, anew, &found),
+            Cow::Borrowed(_) => None,
+        };
         let mut result = own.result(&found)?;
         let step = step("rounds of the budget", Pieces::AtMost(ROUNDS));
         for _ in 0..ROUNDS {
@@ -141,6 +145,7 @@ impl SpatialStudy {
             step.done();
         }
         result.warnings.extend(of_anew);
+        result.reasons_against.extend(of_whole);
         Ok(result)
     }
 

@@ -10,6 +10,7 @@
 
 mod advice;
 mod anew;
+mod as_a_whole;
 mod assembled;
 mod budget;
 mod chain;

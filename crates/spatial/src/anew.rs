@@ -14,9 +14,9 @@ use crate::error::SpatialError;
 use crate::estimate::{Found, Refined};
 use crate::fit::{Effort, Fit};
 use crate::lack;
-use crate::level::of_residuals;
-use crate::normal::Deviations;
-use crate::problem::{Level, Problem, Unknowns};
+use crate::level::{first, of_residuals};
+use crate::normal::{Deviations, cost};
+use crate::problem::{Problem, Unknowns};
 use crate::search::{BY_CHANCE, Extent, by_chance};
 use crate::side::{Anew, Test};
 use crate::study::SpatialStudy;
@@ -101,7 +101,15 @@ impl SpatialStudy {
         )?;
         let with = match (asked, &found) {
             (Some(with), _) => with,
-            (None, Some(found)) if self.is_explained(found)? => None,
+            (None, Some(found)) if self.is_explained(found)? => match self.is_by_chance(found) {
+                true => None,
+                false => [HITS, SENSORS].into_iter().find_map(|kind| {
+                    let is_promising = self.lowers(kind, found, rms).unwrap_or(false);
+                    let (anew, one) = is_promising.then(|| near(kind, &self.problem, found))??;
+                    let more = anew.problem.error_count() - self.problem.error_count();
+                    is_lower(found, &one, more).then_some((anew, one))
+                }),
+            },
             (None, Some(found)) if found.best.has_converged && !self.has_noise() => {
                 let [over_channels, over_impacts] =
                     lack::of_each(&found.shown, &found.joint.unknowns)?;
@@ -139,6 +147,26 @@ impl SpatialStudy {
         Ok(lack(&fit.unknowns)? < (PROMISING * before).max(lack::LACKING))
     }
 
+    /// Whether a few steps with these lower the squares by more than chance makes of so many unknowns.
+    fn lowers(&self, kind: Anew, found: &Found, rms: &Deviations) -> Result<bool, SpatialError> {
+        let level = first(&self.problem, self.level, rms);
+        let own = self.problem.thinned(LINES_MAX);
+        let thin = own.clone().with_anew(kind);
+        let start = thin.unknowns_with_anew(&self.problem, &found.best.unknowns);
+        let before = cost(&own, &found.best.unknowns, &level)?;
+        let fit = Fit::of(&thin, start, &level, Effort::Coarse)?;
+        let more = thin.error_count() - own.error_count();
+        Ok(before - fit.cost > left(found) * by_chance(more, BY_CHANCE))
+    }
+
+    /// Whether chance explains what is left of functions with noise of a stated level; of others nobody knows.
+    fn is_by_chance(&self, found: &Found) -> bool {
+        let Refined {
+            squares, numbers, ..
+        } = found.joint;
+        self.has_noise() || !self.level.is_known() || squares < by_chance(numbers, BY_CHANCE)
+    }
+
     fn with_anew(&self, kind: Anew) -> Self {
         let mut own = self.clone();
         own.problem = own.problem.with_anew(kind);
@@ -147,15 +175,21 @@ impl SpatialStudy {
 
     /// Whether noise explains what is left: by its level where that is stated, else by what moves the interface.
     pub(crate) fn is_explained(&self, found: &Found) -> Result<bool, SpatialError> {
-        let left = found.joint.squares / found.joint.numbers as f64;
-        let by_level = match self.level {
-            Level::Relative(_) | Level::OfCoherence => left < EXPLAINED,
-            Level::OfResiduals => true,
-        };
+        let by_level = !self.level.is_known() || left(found) < EXPLAINED;
         let by_motion =
             self.has_noise() || lack::of(&found.shown, &found.joint.unknowns)? < lack::LACKING;
         Ok(found.joint.has_converged && by_level && by_motion)
     }
+}
+
+/// Squares over numbers.
+fn left(found: &Found) -> f64 {
+    found.joint.squares / found.joint.numbers as f64
+}
+
+/// Whether so many unknowns more lower the squares by more than chance makes of them.
+fn is_lower(found: &Found, with: &Found, more: usize) -> bool {
+    found.best.cost - with.best.cost > left(found) * by_chance(more, BY_CHANCE)
 }
 
 /// Whether so many unknowns fewer leave no more than by chance.

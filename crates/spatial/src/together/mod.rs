@@ -213,16 +213,15 @@ impl<'p> Searches<'p> {
             };
             let lowest = self.came_to(&fit);
             // noise explains other minima as well at a few lines
-            if self.is_stated && self.explains(&fit) {
-                if let Ok(at_more) = self.at_more(&fit) {
-                    self.checked.push(at_more);
-                    if self.is_explained_at_more(CLEARLY) || self.agreeing() > 1 {
-                        self.best = Some(fit);
-                        return true;
-                    }
-                    if self.checked.len() == MOST_CHECKED {
-                        return true;
-                    }
+            let is_explained = self.is_stated && self.explains(&fit);
+            if let Some(at_more) = is_explained.then(|| self.at_more(&fit).ok()).flatten() {
+                self.checked.push(at_more);
+                if self.is_explained_at_more(CLEARLY) || self.agreeing() > 1 {
+                    self.best = Some(fit);
+                    return true;
+                }
+                if self.checked.len() == MOST_CHECKED {
+                    return true;
                 }
             }
             if fit.cost < lowest {

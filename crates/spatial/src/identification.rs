@@ -95,7 +95,16 @@ pub struct SetUpError {
     pub expected: f64,
 }
 
+/// An error is told where its deviation is less than this part of the budget's.
+const TOLD: f64 = 0.95;
+
 impl SetUpError {
+    /// Whether the functions tell more of it than the budget does.
+    #[must_use]
+    pub fn is_told(&self) -> bool {
+        self.deviation < TOLD * self.expected
+    }
+
     /// Value over the budget's deviation.
     #[must_use]
     pub fn pull(&self) -> f64 {

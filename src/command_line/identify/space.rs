@@ -264,23 +264,26 @@ fn summary(study: &SpatialStudy, found: &SpatialIdentification) -> String {
 fn of_wholes(found: &SpatialIdentification) -> String {
     let wholes: Vec<&SetUpError> = found.errors.iter().filter(|own| own.is_whole).collect();
     let each = wholes.chunk_by(|one, other| one.key == other.key);
-    let told = |errors: &[&SetUpError], is_turn: bool, scale: f64| -> String {
-        let own = errors
-            .iter()
-            .filter(|own| matches!(own.change, Change::Pose(dof) if dof.is_rotation() == is_turn));
-        let values = own.map(|own| {
-            let [value, deviation] = [own.value, own.deviation].map(|own| scale * own);
-            format!("{value:.2} ± {deviation:.2}")
-        });
-        values.collect::<Vec<_>>().join(", ")
+    let moved = |own: &&SetUpError| {
+        let [value, deviation] = [own.value, own.deviation].map(|own| 1e3 * own);
+        let unit = match own.change {
+            Change::Pose(dof) if dof.is_rotation() => "mrad",
+            _ => "mm",
+        };
+        format!("{} {value:.2} ± {deviation:.2} {unit}", change(own.change))
     };
     each.map(|errors| {
-        format!(
-            "{}: moved by {} mm, turned by {} mrad\n",
-            errors[0].key,
-            told(errors, false, 1e3),
-            told(errors, true, 1e3)
-        )
+        let (told, others): (Vec<&SetUpError>, Vec<&SetUpError>) =
+            errors.iter().copied().partition(|own| own.is_told());
+        let told: Vec<String> = told.iter().map(moved).collect();
+        let others: Vec<String> = others.iter().map(|own| change(own.change)).collect();
+        let untold = match others.is_empty() {
+            true => String::new(),
+            false => format!("the functions do not tell {}", others.join(", ")),
+        };
+        let parts = [told.join(", "), untold];
+        let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        format!("{}: {}\n", errors[0].key, parts.join("; "))
     })
     .collect()
 }

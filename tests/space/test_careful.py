@@ -1,6 +1,7 @@
 """Places to a millimetre and gains to a per cent, as a careful laboratory knows them: the budget that studies have by default."""
 
 import numpy as np
+from chains import definite
 from frames import Rig
 from test_as_a_whole import LINES, deviations, found, rows
 from test_plan import bolt
@@ -10,13 +11,24 @@ K, C = bolt()
 TRUTH = [own for matrix in (K, C) for own in (matrix[0, 0], matrix[2, 2], matrix[3, 3], matrix[5, 5], matrix[0, 4])]
 
 
-def test_a_bolt_is_found_beside_errors_that_are_larger_than_what_it_says(run, tmp_path):
-    """Searches for its ten numbers end in minima far above the noise, or with a motion that is as good as rigid."""
-    rng = np.random.default_rng(5)
-    rig = Rig(K, C, seed=3)
+def off(folder, seed, stiffness, damping):
+    rng = np.random.default_rng(seed)
+    rig = Rig(stiffness, damping, seed=3)
     none = np.zeros(3)
     errors = [rows(rig, side, rng, none, none, CAREFUL) for side in range(2)]
-    rig.write(tmp_path, LINES, 0.01, rng, errors, 'model = "bolt"')
+    rig.write(folder, LINES, 0.01, rng, errors, 'model = "bolt"')
+
+
+def test_a_bolt_is_found_beside_errors_that_are_larger_than_what_it_says(run, tmp_path):
+    """Searches for its ten numbers end in minima far above the noise, or with a motion that is as good as rigid."""
+    off(tmp_path, 5, K, C)
     told = found(run, tmp_path)
     assert told["reduced_chi_squared"] < 1.03
     assert np.abs(deviations(told, TRUTH)).max() < 4
+
+
+def test_a_joint_that_is_no_bolt_is_told_as_such(run, tmp_path):
+    off(tmp_path, 0, definite(3, 2e7), definite(4, 300.0))
+    told = run("identify", tmp_path / "study.toml", "-o", tmp_path / "j.joint.json", expect=1).stderr
+    assert "the joint is not what its model says" in told and "budget.joint" in told
+    assert not (tmp_path / "j.joint.json").exists()

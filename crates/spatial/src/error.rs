@@ -65,6 +65,15 @@ pub enum SpatialError {
         /// Searches.
         tried: usize,
     },
+    /// Noise and budget explain the functions with a joint of all numbers, and with none of the model's.
+    #[error(
+        "a joint of all numbers explains the functions, and none of {tried} searches for one with the numbers of the model does: the \
+         joint is not what its model says, or not where; take model = \"full\", or state in budget.joint how far it may be beside its point"
+    )]
+    NotOfModel {
+        /// Searches for the model's numbers.
+        tried: usize,
+    },
     /// An interface of a chain.
     #[error("{name}: {source}")]
     Interface {

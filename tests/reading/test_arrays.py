@@ -61,7 +61,8 @@ def test_usual_names_are_the_same_joint(demo, study, run, names, ending):
 
 @pytest.mark.parametrize("ending", ["npz", "mat"])
 def test_coherence_alone(demo, study, run, ending):
-    gamma = np.full(demo.values.shape, 1 / (1 + 10 * 0.01**2))
+    # what is left of ten averages, one of which the function takes
+    gamma = np.full(demo.values.shape, 1 / (1 + 9 * 0.01**2))
     path = study.folder / f"coherence.{ending}"
     save(path, usual(demo, H=None, quantity=None, unit=None, coh=np.moveaxis(gamma, 2, 0), n_averages=10))
     found, _ = study(f'frf = "assembly.uff"\ncoherence = "coherence.{ending}"')

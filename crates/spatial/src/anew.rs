@@ -107,7 +107,10 @@ impl SpatialStudy {
                     let is_promising = self.lowers(kind, found, rms).unwrap_or(false);
                     let (anew, one) = is_promising.then(|| near(kind, &self.problem, found))??;
                     let more = anew.problem.error_count() - self.problem.error_count();
-                    is_lower(found, &one, more).then_some((anew, one))
+                    let lines = found.estimated.frequency_hz.len();
+                    let before = self.badness(found, lines, rms).ok()?;
+                    let after = anew.badness(&one, lines, rms).ok()?;
+                    is_lower(found, [before, after], more).then_some((anew, one))
                 }),
             },
             (None, Some(found)) if found.best.has_converged && !self.has_noise() => {
@@ -156,7 +159,7 @@ impl SpatialStudy {
         let before = cost(&own, &found.best.unknowns, &level)?;
         let fit = Fit::of(&thin, start, &level, Effort::Coarse)?;
         let more = thin.error_count() - own.error_count();
-        Ok(before - fit.cost > left(found) * by_chance(more, BY_CHANCE))
+        Ok(is_lower(found, [before, fit.cost], more))
     }
 
     /// Whether chance explains what is left of functions with noise of a stated level; of others nobody knows.
@@ -187,9 +190,9 @@ fn left(found: &Found) -> f64 {
     found.joint.squares / found.joint.numbers as f64
 }
 
-/// Whether so many unknowns more lower the squares by more than chance makes of them.
-fn is_lower(found: &Found, with: &Found, more: usize) -> bool {
-    found.best.cost - with.best.cost > left(found) * by_chance(more, BY_CHANCE)
+/// Whether so many unknowns more lower these squares by more than chance makes of them, beside what is left of all.
+fn is_lower(found: &Found, [before, after]: [f64; 2], more: usize) -> bool {
+    before - after > left(found) * by_chance(more, BY_CHANCE)
 }
 
 /// Whether so many unknowns fewer leave no more than by chance.

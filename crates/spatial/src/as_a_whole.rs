@@ -6,14 +6,13 @@
 use crate::budget::{TYPICAL_WHOLE, beside_wholes};
 use crate::error::SpatialError;
 use crate::estimate::Found;
-use crate::level::of_residuals;
-use crate::normal::{Deviations, squares_of_errors};
+use crate::level::{first, of_residuals};
+use crate::normal::{Deviations, cost, squares_of_errors};
 use crate::prior::Common;
-use crate::problem::Problem;
 use crate::study::SpatialStudy;
 
 impl SpatialStudy {
-    /// Why the estimate that `with` is, of the study `anew`, is not the joint, if places as a whole explain the functions as well.
+    /// Why the estimate that `with` is, of the study `anew`, is not the joint, if places as a whole explain the functions better.
     pub(crate) fn better_as_a_whole(
         &self,
         rms: &Deviations,
@@ -30,13 +29,9 @@ impl SpatialStudy {
         if !matches!(whole.is_explained(&found), Ok(true)) {
             return None;
         }
-        let of_both = [(anew, with), (&whole, &found)]
-            .map(|(study, found)| study.badness(found, rms))
-            .into_iter()
-            .collect::<Result<Vec<f64>, _>>();
-        let [of_anew, of_whole] = of_both.ok()?[..] else {
-            return None;
-        };
+        let lines = with.estimated.frequency_hz.len();
+        let of_anew = anew.badness(with, lines, rms).ok()?;
+        let of_whole = whole.badness(&found, lines, rms).ok()?;
         (of_whole < of_anew).then(|| {
             format!(
                 "places of a side that are off as a whole explain the functions better than sensors or hits of the assembly that are elsewhere \
@@ -61,15 +56,21 @@ impl SpatialStudy {
         Some(own)
     }
 
-    /// −2 ln L of what was found, but for what is the same of all, with the errors of the set-up that it takes.
-    fn badness(&self, found: &Found, rms: &Deviations) -> Result<f64, SpatialError> {
+    /// −2 ln L of what was found at so many lines, but for what is the same of all, with the errors of the set-up that it takes.
+    pub(crate) fn badness(
+        &self,
+        found: &Found,
+        lines: usize,
+        rms: &Deviations,
+    ) -> Result<f64, SpatialError> {
+        let problem = self.problem.thinned(lines);
+        let unknowns = &found.best.unknowns;
         if self.level.is_known() {
-            return Ok(found.best.cost);
+            return cost(&problem, unknowns, &first(&self.problem, self.level, rms));
         }
-        let Problem { frequency_hz, .. } = &found.estimated;
-        let level = of_residuals(&found.estimated, &found.best.unknowns, rms)?;
+        let level = of_residuals(&problem, unknowns, rms)?;
         let of_functions: f64 = level.iter().map(|own| own.powi(2).ln()).sum();
-        let of_errors = squares_of_errors(&found.estimated, &found.best.unknowns);
-        Ok(2.0 * frequency_hz.len() as f64 * of_functions + of_errors)
+        let lines = problem.frequency_hz.len() as f64;
+        Ok(2.0 * lines * of_functions + squares_of_errors(&problem, unknowns))
     }
 }

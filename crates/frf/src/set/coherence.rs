@@ -82,10 +82,20 @@ impl FrfSet {
     /// Ordinary coherence γ² at each line of the measured function behind [`FrfSet::receptance`], if it came with the set.
     #[must_use]
     pub fn coherence(&self, response: Dof, reference: Dof) -> Option<&[f64]> {
+        self.of_measured(&self.gamma_squared, response, reference)
+    }
+
+    /// What `all` has of the measured function behind [`FrfSet::receptance`].
+    fn of_measured<'a>(
+        &self,
+        all: &'a BTreeMap<(Dof, Dof), Vec<f64>>,
+        response: Dof,
+        reference: Dof,
+    ) -> Option<&'a [f64]> {
         let measured = self
             .measured_pair(response, reference)
             .or_else(|| self.measured_pair(reference, response))?;
-        self.gamma_squared.get(&measured).map(Vec::as_slice)
+        all.get(&measured).map(Vec::as_slice)
     }
 
     /// The number of averages behind the functions, where it is known.
@@ -101,10 +111,7 @@ impl FrfSet {
     /// coherence or without averages that tell it. With |H|² it is to be taken times by [`absolute_variances`].
     #[must_use]
     pub fn relative_variance(&self, response: Dof, reference: Dof) -> Option<&[f64]> {
-        let measured = self
-            .measured_pair(response, reference)
-            .or_else(|| self.measured_pair(reference, response))?;
-        self.relative_variances.get(&measured).map(Vec::as_slice)
+        self.of_measured(&self.relative_variances, response, reference)
     }
 
     /// σ at each line of that function, in its unit.

@@ -398,3 +398,25 @@ fn is_rigid(problem: &Problem, balance: &[f64], unknowns: &Unknowns) -> bool {
         pairs.any(|(own, balance)| own.abs() > RIGID * balance || *own < -NEGATIVE * balance)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix6;
+
+    use super::*;
+    use crate::samples::problem;
+
+    #[test]
+    fn a_motion_is_lost_where_it_is_rigid_or_beyond() {
+        let problem = problem();
+        let balance = [2e7; 6];
+        let with = |part: f64| {
+            let mut stiffness = Matrix6::identity() * 2e7;
+            stiffness[(2, 2)] = part * 2e7;
+            let joints = problem.links.nearest(&[[stiffness, stiffness * 1e-5]]);
+            is_rigid(&problem, &balance, &Unknowns(joints.unwrap()))
+        };
+        assert!([1e5, -1e5, -0.2].into_iter().all(with));
+        assert!(![1e3, 1e-3, 0.0, -0.05].into_iter().any(with));
+    }
+}

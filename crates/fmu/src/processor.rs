@@ -10,7 +10,7 @@ pub fn use_all_of_it() {
 
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use bolted_joint_dynamics::assembly::products::{Groups, LANES, Products, ROWS};
+    use bolted_joint_dynamics::assembly::products::{Column, Groups, LANES, Products, ROWS};
 
     /// Only for processors that have it.
     pub(super) const PRODUCTS: Products = Products {
@@ -18,16 +18,23 @@ mod avx2 {
         group_sums: |rows, x| unsafe { group_sums(rows, x) },
         // SAFETY: as above.
         add_rows: |terms, sum| unsafe { add_rows(terms, sum) },
+        // SAFETY: as above.
+        column_sums: |columns, x| unsafe { column_sums(columns, x) },
     };
 
     #[target_feature(enable = "avx2")]
-    fn group_sums(rows: [Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
+    fn group_sums(rows: &[Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
         bolted_joint_dynamics::assembly::products::group_sums(rows, x)
     }
 
     #[target_feature(enable = "avx2")]
-    fn add_rows(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+    fn add_rows(terms: &[(f64, &[f64]); ROWS], sum: &mut [f64]) {
         bolted_joint_dynamics::assembly::products::add_rows(terms, sum);
+    }
+
+    #[target_feature(enable = "avx2")]
+    fn column_sums(columns: &[Column], x: &[f64]) -> Column {
+        bolted_joint_dynamics::assembly::products::sums_of_columns(columns, x)
     }
 
     #[cfg(test)]
@@ -50,8 +57,8 @@ mod avx2 {
             let x = row(5);
             let groups = rows.each_ref().map(|row| row.as_chunks().0);
             let x_groups = x.as_chunks().0;
-            let plain = products::group_sums(groups, x_groups);
-            let own = (PRODUCTS.group_sums)(groups, x_groups);
+            let plain = products::group_sums(&groups, x_groups);
+            let own = (PRODUCTS.group_sums)(&groups, x_groups);
             assert_eq!(
                 plain.map(|row| row.map(f64::to_bits)),
                 own.map(|row| row.map(f64::to_bits))
@@ -59,10 +66,14 @@ mod avx2 {
             let factors = [0.3, -1.7, 2.9, 0.8];
             let terms = std::array::from_fn(|i| (factors[i], &rows[i][..]));
             let (mut plain, mut own) = (x.clone(), x);
-            products::add_rows(terms, &mut plain);
-            (PRODUCTS.add_rows)(terms, &mut own);
+            products::add_rows(&terms, &mut plain);
+            (PRODUCTS.add_rows)(&terms, &mut own);
             let bits = |sum: &[f64]| sum.iter().map(|own| own.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&plain), bits(&own));
+            let columns: Vec<Column> = plain.as_chunks().0.as_chunks().0.to_vec();
+            let plain = products::sums_of_columns(&columns, &own);
+            let own = (PRODUCTS.column_sums)(&columns, &own);
+            assert_eq!(bits(plain.as_flattened()), bits(own.as_flattened()));
         }
     }
 }

@@ -33,6 +33,8 @@ pub(super) struct Parts {
 pub(super) struct Sight {
     /// Relative displacements of the DOFs with laws, and then their rates: 2d × 2n.
     pub(super) relative: Matrix,
+    /// The same, and after them displacements at the loads: (2d + m) × 2n.
+    pub(super) ends: Matrix,
     /// Displacements at the loads and of these DOFs: (m + d) × 2n.
     pub(super) places: Matrix,
     /// Velocities at the loads: m × 2n.
@@ -95,7 +97,7 @@ impl AssemblyCoordinates {
     /// Rows that see something of the coordinates q, and then the same of q̇, as rows for z: 2k × 2n of k × n.
     #[must_use]
     pub fn seen(&self, rows: &Matrix) -> Matrix {
-        self.0.seen(&twice(rows))
+        seen_in(self.0.frame.as_ref(), &twice(rows))
     }
 }
 
@@ -116,33 +118,23 @@ impl Parts {
         places.set_block([m, 0], &system.rows);
         let mut velocities = Matrix::zeros(m, 2 * n);
         velocities.set_block([0, n], &system.load_rows);
-        let relative = twice(&system.rows);
-        let mut parts = Self {
+        let seen = |rows: &Matrix| seen_in(frame.as_ref(), rows);
+        let (relative, places) = (seen(&twice(&system.rows)), seen(&places));
+        let at_loads = places.block([0, 0], m, 2 * n);
+        let sight = Sight {
+            ends: Matrix::stacked([relative.clone(), at_loads].into_iter()),
+            relative,
+            places,
+            velocities: seen(&velocities),
+        };
+        if let Some(frame) = &frame {
+            acting = acting.product(&frame.to_modes().transposed());
+        }
+        Self {
             system,
             frame,
-            sight: Sight {
-                relative,
-                places,
-                velocities,
-            },
+            sight,
             acting,
-        };
-        parts.sight = Sight {
-            relative: parts.seen(&parts.sight.relative),
-            places: parts.seen(&parts.sight.places),
-            velocities: parts.seen(&parts.sight.velocities),
-        };
-        if let Some(frame) = &parts.frame {
-            parts.acting = parts.acting.product(&frame.to_modes().transposed());
-        }
-        parts
-    }
-
-    /// What rows for (q, q̇) are for z.
-    fn seen(&self, rows: &Matrix) -> Matrix {
-        match &self.frame {
-            Some(frame) => rows.product(frame.out_of_modes()),
-            None => rows.clone(),
         }
     }
 
@@ -161,6 +153,14 @@ impl Sight {
     pub(super) fn relative(&self, own: &[f64], relative: &mut [f64]) {
         relative.fill(0.0);
         self.relative.add_product_to(own, relative);
+    }
+}
+
+/// What rows for (q, q̇) are for z.
+fn seen_in(frame: Option<&Frame>, rows: &Matrix) -> Matrix {
+    match frame {
+        Some(frame) => rows.product(frame.out_of_modes()),
+        None => rows.clone(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use super::products::{ROWS as BLOCK, add, add_rows, dot, dots};
+use super::products::{ROWS as BLOCK, add, dot, dots};
 
 /// Columns below which that gains nothing.
 const SHORT: usize = 16;
@@ -168,19 +168,18 @@ impl Matrix {
     #[inline]
     pub fn add_product_to(&self, x: &[f64], sum: &mut [f64]) {
         debug_assert_eq!((self.columns, self.rows), (x.len(), sum.len()));
-        let (blocks, rest) = match self.columns < SHORT {
-            true => sum.split_at_mut(0),
-            false => sum.split_at_mut(self.rows - self.rows % BLOCK),
-        };
-        let first = blocks.len();
-        for (block, sums) in blocks.chunks_exact_mut(BLOCK).enumerate() {
-            let rows = std::array::from_fn(|i| self.row(BLOCK * block + i));
+        if self.columns < SHORT {
+            for (i, sum) in sum.iter_mut().enumerate() {
+                *sum += dot(self.row(i), x);
+            }
+            return;
+        }
+        for (block, sums) in sum.chunks_mut(BLOCK).enumerate() {
+            // where rows are missing the last one stands in
+            let rows = std::array::from_fn(|i| self.row(BLOCK * block + i.min(sums.len() - 1)));
             for (sum, own) in sums.iter_mut().zip(dots(rows, x)) {
                 *sum += own;
             }
-        }
-        for (i, sum) in rest.iter_mut().enumerate() {
-            *sum += dot(self.row(first + i), x);
         }
     }
 
@@ -195,12 +194,14 @@ impl Matrix {
                 count += 1;
             }
             if count == BLOCK {
-                add(block, sum);
+                add(&block, sum);
                 count = 0;
             }
         }
-        for term in &block[..count] {
-            add_rows([*term], sum);
+        if let Some(&(_, last)) = block[..count].last() {
+            // where rows are missing nothing of the last one is added
+            block[count..].fill((0.0, last));
+            add(&block, sum);
         }
     }
 

@@ -3,6 +3,7 @@
 //! The linear part is propagated exactly, at any length of step; only the joints' own frequency limits the step, and that only
 //! where their laws are not linear.
 
+mod columns;
 mod coordinates;
 mod equations;
 mod exponential;

@@ -15,18 +15,26 @@ pub const ROWS: usize = 4;
 pub type Groups<'a> = &'a [[f64; LANES]];
 
 /// The sums of each of several rows, group by group.
-pub type GroupSums = fn([Groups<'_>; ROWS], Groups<'_>) -> [[f64; LANES]; ROWS];
+pub type GroupSums = fn(&[Groups<'_>; ROWS], Groups<'_>) -> [[f64; LANES]; ROWS];
 
 /// Adds several rows, each with its factor, to a sum.
-pub type AddRows = fn([(f64, &[f64]); ROWS], &mut [f64]);
+pub type AddRows = fn(&[(f64, &[f64]); ROWS], &mut [f64]);
 
-/// [`group_sums`] and [`add_rows`] as a processor takes them, each compiled for that one.
+/// Sixteen numbers of a column.
+pub type Column = [[f64; LANES]; 4];
+
+/// The sums of columns, each with its factor.
+pub type ColumnSums = fn(&[Column], &[f64]) -> Column;
+
+/// [`group_sums`], [`add_rows`] and [`sums_of_columns`] as a processor takes them, each compiled for that one.
 #[derive(Clone, Copy, Debug)]
 pub struct Products {
     /// [`group_sums`].
     pub group_sums: GroupSums,
     /// [`add_rows`].
     pub add_rows: AddRows,
+    /// [`sums_of_columns`].
+    pub column_sums: ColumnSums,
 }
 
 impl Products {
@@ -34,6 +42,7 @@ impl Products {
     const OF_ANY: Self = Self {
         group_sums: of_any::group_sums,
         add_rows: of_any::add_rows,
+        column_sums: of_any::column_sums,
     };
 
     /// Takes all sums of this process so from now on. Only the first call counts.
@@ -51,15 +60,19 @@ static TAKEN: OnceLock<Products> = OnceLock::new();
 
 /// By themselves, so that the lanes are what the compiler does at once, and not the rows.
 mod of_any {
-    use super::{Groups, LANES, ROWS};
+    use super::{Column, Groups, LANES, ROWS};
 
     #[inline(never)]
-    pub(super) fn group_sums(rows: [Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
+    pub(super) fn group_sums(rows: &[Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
         super::group_sums(rows, x)
     }
 
-    pub(super) fn add_rows(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+    pub(super) fn add_rows(terms: &[(f64, &[f64]); ROWS], sum: &mut [f64]) {
         super::add_rows(terms, sum);
+    }
+
+    pub(super) fn column_sums(columns: &[Column], x: &[f64]) -> Column {
+        super::sums_of_columns(columns, x)
     }
 }
 
@@ -80,7 +93,7 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[inline]
 pub(super) fn dots(rows: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
     let sums = (Products::taken().group_sums)(
-        rows.map(|row| row[..x.len()].as_chunks().0),
+        &rows.map(|row| row[..x.len()].as_chunks().0),
         x.as_chunks().0,
     );
     let whole = x.len() - x.len() % LANES;
@@ -96,14 +109,20 @@ fn total([first, second, third, fourth]: [f64; LANES], a: &[f64], b: &[f64]) -> 
 
 /// Adds Σ factor · row to `sum`, term by term in their order.
 #[inline]
-pub(super) fn add(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+pub(super) fn add(terms: &[(f64, &[f64]); ROWS], sum: &mut [f64]) {
     (Products::taken().add_rows)(terms, sum);
+}
+
+/// Σ xⱼ · column j
+#[inline]
+pub(super) fn column_sums(columns: &[Column], x: &[f64]) -> Column {
+    (Products::taken().column_sums)(columns, x)
 }
 
 /// The sums of each row, lane by lane: Σₖ aₖ xₖ of the groups k. Rows have the length of x, or more.
 #[inline(always)]
 #[must_use]
-pub fn group_sums(rows: [Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
+pub fn group_sums(rows: &[Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROWS] {
     let rows = rows.map(|row| &row[..x.len()]);
     let mut sums = [[0.0; LANES]; ROWS];
     for (place, x) in x.iter().enumerate() {
@@ -118,7 +137,7 @@ pub fn group_sums(rows: [Groups<'_>; ROWS], x: Groups<'_>) -> [[f64; LANES]; ROW
 
 /// Adds Σ factor · row to `sum`, term by term in their order. Rows have its length, or more.
 #[inline(always)]
-pub fn add_rows<const ROWS: usize>(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]) {
+pub fn add_rows<const ROWS: usize>(terms: &[(f64, &[f64]); ROWS], sum: &mut [f64]) {
     let size = sum.len();
     let terms = terms.map(|(factor, row)| (factor, &row[..size]));
     for (place, sum) in sum.iter_mut().enumerate() {
@@ -126,6 +145,21 @@ pub fn add_rows<const ROWS: usize>(terms: [(f64, &[f64]); ROWS], sum: &mut [f64]
             *sum += factor * row[place];
         }
     }
+}
+
+/// Σ xⱼ · column j, term by term in their order.
+#[inline(always)]
+#[must_use]
+pub fn sums_of_columns(columns: &[Column], x: &[f64]) -> Column {
+    let mut sums = Column::default();
+    for (column, x) in columns.iter().zip(x) {
+        for (sums, own) in sums.iter_mut().zip(column) {
+            for (sum, own) in sums.iter_mut().zip(own) {
+                *sum += own * x;
+            }
+        }
+    }
+    sums
 }
 
 #[cfg(test)]
@@ -149,9 +183,9 @@ mod tests {
             let (mut together, mut one_by_one) = (x.clone(), x.clone());
             let factors = [0.3, -1.7, 2.9, 0.8];
             let terms = std::array::from_fn(|i| (factors[i], &rows[i][..]));
-            add(terms, &mut together);
+            add(&terms, &mut together);
             for term in terms {
-                add_rows([term], &mut one_by_one);
+                add_rows(&[term], &mut one_by_one);
             }
             assert_eq!(together, one_by_one, "{size}");
         }

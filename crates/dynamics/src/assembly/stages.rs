@@ -8,6 +8,7 @@
 //! These are equations for the forces alone, few as they are: collocation, with the linear part exact.
 
 use super::{
+    columns::Columns,
     lobatto::{NODES, THETA, legendre_coefficients, powers},
     matrix::Matrix,
     propagator::{Blocks, POWERS},
@@ -25,7 +26,7 @@ pub(super) struct Stages {
     /// … by the loads' powers of time, 4 · 2d × m.
     pub(super) by_loads: [Matrix; POWERS],
     /// … by the forces at all nodes, 2d × 5d for each.
-    pub(super) by_forces: [Matrix; LATER],
+    pub(super) by_forces: [Columns; LATER],
     /// Moduli of what Legendre's polynomials of the forces make of (r, ṙ) at the end, 2d × d each.
     pub(super) of_legendre: [Matrix; NODES],
 }
@@ -63,7 +64,7 @@ impl Stages {
             by_state: Matrix::stacked(to_nodes.iter().map(|blocks| blocks.state.seen_by(rows))),
             by_loads: std::array::from_fn(|power| seen(&of_loads, power)),
             by_forces: std::array::from_fn(|node| {
-                by_forces.block([node * 2 * d, 0], 2 * d, NODES * d)
+                Columns::of(&by_forces.block([node * 2 * d, 0], 2 * d, NODES * d))
             }),
             of_legendre: std::array::from_fn(|k| along(powers(unit(k)), 2 * d).moduli()),
         }

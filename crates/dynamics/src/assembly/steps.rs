@@ -8,7 +8,7 @@ use super::{
     coordinates::{AssemblyCoordinates, Parts},
     ladder::{HALVINGS_AT_EVENTS, Ladder},
     propagator::POWERS,
-    scratch::{Means, Scratch},
+    scratch::{Look, Means, Scratch},
     state::{AssemblyState, Underway},
     system::Assembly,
 };
@@ -26,6 +26,7 @@ pub struct AssemblySteps {
     ladder: Ladder,
     tolerance: f64,
     scratch: Vec<Scratch>,
+    look: Look,
     is_too_long: bool,
     /// The longest level that is worth a trial, by the latest part.
     longest: usize,
@@ -50,6 +51,7 @@ impl AssemblySteps {
         Some(Self {
             tolerance,
             scratch: vec![Scratch::of(&coordinates.0.system); ladder.rungs.len()],
+            look: Look::of(&coordinates.0.system),
             ladder,
             coordinates: coordinates.clone(),
             is_too_long: false,
@@ -154,7 +156,7 @@ impl AssemblySteps {
         own.follow(system);
         let is_tried = is_finest || level >= self.longest && !own.is_preload_far(system);
         let error = match is_tried {
-            true => own.find_forces(means, state, self.tolerance),
+            true => own.find_forces(means, state, &mut self.look, self.tolerance),
             false => None,
         };
         let is_steep = !error.is_some_and(|error| error <= 1.0);
@@ -172,7 +174,7 @@ impl AssemblySteps {
             }
             let is_easy = error.is_some_and(|error| error < EASY);
             self.longest = self.longest.min(level.saturating_sub(usize::from(is_easy)));
-            own.go_on(means, state);
+            own.go_on(means, state, &mut self.look);
             std::mem::swap(state, &mut own.state);
             return 1;
         };

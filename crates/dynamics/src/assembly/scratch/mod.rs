@@ -2,6 +2,7 @@
 
 mod creep;
 mod events;
+mod look;
 mod trail;
 
 use super::{
@@ -9,12 +10,12 @@ use super::{
     ladder::Rung,
     lobatto::{NODES, THETA, WEIGHTS, legendre_coefficients, powers},
     preload::LawsAt,
-    products::dot,
     propagator::{Blocks, MOMENTS, POWERS},
     stages::{LATER, Stages},
     state::Underway,
     system::System,
 };
+pub(super) use look::Look;
 use trail::Trail;
 
 /// Sweeps over the nodes for the joints' forces, at most; five to eight are usual.
@@ -54,6 +55,8 @@ pub(super) struct Scratch {
     laws: Vec<LawsAt>,
     /// Relative motions (r, ṙ) at the nodes.
     relative: [Vec<f64>; NODES],
+    /// Displacements at the loads, at the beginning and at the end.
+    at_loads: [Vec<f64>; 2],
     /// The same at the later nodes without the joints' forces.
     free: Vec<f64>,
     /// Forces at the nodes.
@@ -94,6 +97,7 @@ impl Scratch {
             loads: std::array::from_fn(|_| vec![0.0; m + following]),
             laws: vec![system.laws.clone(); if following > 0 { NODES } else { 0 }],
             relative: std::array::from_fn(|_| vec![0.0; 2 * d]),
+            at_loads: std::array::from_fn(|_| vec![0.0; m]),
             free: vec![0.0; LATER * 2 * d],
             forces: vec![0.0; NODES * d],
             powers: vec![0.0; POWERS * (m + d)],
@@ -160,6 +164,7 @@ impl Scratch {
         &mut self,
         means: Means<'_>,
         before: &Underway,
+        look: &mut Look,
         tolerance: f64,
     ) -> Option<f64> {
         let Means {
@@ -174,7 +179,8 @@ impl Scratch {
         let Some(stages) = &rung.stages else {
             return Some(0.0);
         };
-        sight.relative(&before.motion, &mut self.relative[0]);
+        let seen = look.at(sight, &before.motion);
+        self.relative[0].copy_from_slice(&seen[..2 * d]);
         if !self.relative[0].iter().all(|own| own.is_finite()) {
             // what has grown beyond all bounds is no better in parts
             return Some(0.0);
@@ -340,23 +346,24 @@ impl Scratch {
     }
 
     /// The motion at the end, with the forces that were found.
-    pub(super) fn go_on(&mut self, means: Means<'_>, before: &Underway) {
-        let whole = &means.rung.whole;
+    pub(super) fn go_on(&mut self, means: Means<'_>, before: &Underway, look: &mut Look) {
+        let Means { sight, rung, .. } = means;
+        let (whole, laws) = (&rung.whole, 2 * means.system.forces());
+        let [begin_at_loads, end_at_loads] = &mut self.at_loads;
+        begin_at_loads.copy_from_slice(&look.at(sight, &before.motion)[laws..]);
         let end = &mut self.state.motion;
         whole.state.go_on(&before.motion, end);
         whole.by.add_rows_to(&self.powers, end);
         // to the last digit where the next step begins, so that what slides is on its corner
-        means.sight.relative(end, &mut self.relative[LATER]);
+        let seen = look.at(sight, end);
+        self.relative[LATER].copy_from_slice(&seen[..laws]);
+        end_at_loads.copy_from_slice(&seen[laws..]);
         self.count(means, before);
     }
 
     /// What the step supplies and turns into heat, but for what the linear part stores, and what the joints remember after it.
     fn count(&mut self, means: Means<'_>, before: &Underway) {
-        let Means {
-            system,
-            sight,
-            rung,
-        } = means;
+        let Means { system, rung, .. } = means;
         let h = rung.length_s;
         let (m, d) = (system.loads, system.forces());
         if is_there(&self.powers[m + d..]) {
@@ -370,10 +377,9 @@ impl Scratch {
             moments_by.add_product_to(&self.powers, &mut self.moments);
         }
         let [begin, .., end] = &self.relative;
-        // what joints have seen already, and what loads see
         let ends = |p: usize| match p.checked_sub(m) {
             Some(law) => [begin[law], end[law]],
-            None => [&before.motion, &self.state.motion].map(|own| dot(sight.places.row(p), own)),
+            None => self.at_loads.each_ref().map(|own| own[p]),
         };
         // ∫ wᵀ dx = [wᵀ x] − ∫ (dw/dθ)ᵀ x dθ, with ∫ θ x dθ = z₁ − z₂, ∫ θ² x dθ = z₁ − 2z₂ + 2z₃, …
         let work = |p: usize| {

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::follow::{Curve, point};
-use super::{ForcedPoint, OF_FREQUENCY, Problem};
+use super::{Balance, ForcedPoint, OF_FREQUENCY, Problem, VARIED};
 
 /// Loads of the first point come in so many parts.
 const PARTS: u32 = 20;
@@ -61,8 +61,8 @@ impl Forced<'_, '_> {
         let problem = self.problem;
         let omega = unknowns[problem.size()];
         let motion = unknowns.as_slice().get(..problem.size())?;
-        let (_, _, forces) = problem.balance(motion, omega, 0.0, &self.loads)?;
         let linear = problem.linear(omega, 0.0, &self.loads)?;
+        let forces = problem.balance(&linear, motion, omega).forces;
         let harmonics = problem.sampling.orders().len();
         let all: Vec<DVector<Complex64>> = (0..harmonics)
             .map(|own| problem.outputs(&linear, &forces, own))
@@ -83,10 +83,19 @@ impl Forced<'_, '_> {
 
 impl Curve for Forced<'_, '_> {
     fn at(&self, unknowns: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        let (motion, omega) = unknowns.as_slice().split_at(self.problem.size());
-        let (residual, derivatives, _) =
-            self.problem
-                .balance(motion, *omega.first()?, 0.0, &self.loads)?;
+        let problem = self.problem;
+        let (motion, omega) = unknowns.as_slice().split_at(problem.size());
+        let omega = *omega.first()?;
+        let change = VARIED * omega;
+        let linear = problem.linear(omega, 0.0, &self.loads)?;
+        let next = problem.linear(omega + change, 0.0, &self.loads)?;
+        let Balance {
+            residual,
+            mut derivatives,
+            ..
+        } = problem.balance(&linear, motion, omega);
+        let mut by_omega = derivatives.column_mut(problem.size());
+        by_omega += problem.by_change([&linear, &next], motion, change);
         Some((residual, derivatives))
     }
 

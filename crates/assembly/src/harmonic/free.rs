@@ -73,8 +73,8 @@ impl Free<'_, '_> {
         let (omega, ratio, amplitude) =
             (unknowns[size], unknowns[size + 1], unknowns[size + 2].exp());
         let motion = unknowns.as_slice().get(..size)?;
-        let (own, derivatives, _) = problem.balance(motion, omega, ratio, &loads)?;
         let linear = problem.linear(omega, ratio, &loads)?;
+        let balance = problem.balance(&linear, motion, omega);
         // y = U f with f = −Z r at the fundamental, which is linear in r
         let output = |linear: &Linear| -> Option<DMatrix<Complex64>> {
             let first = linear.at.first()?;
@@ -85,22 +85,19 @@ impl Free<'_, '_> {
         let r = DVector::from_fn(count, |dof, _| problem.phasor(motion, dof, 0));
         let y = (&rows * &r)[(0, 0)];
         let mut residual = DVector::zeros(size + 2);
-        residual.rows_mut(0, size).copy_from(&own);
+        residual.rows_mut(0, size).copy_from(&balance.residual);
         residual[size] = y.re / amplitude - 1.0;
         residual[size + 1] = y.im / amplitude;
         let mut matrix = DMatrix::zeros(size + 2, size + 3);
         matrix
             .view_mut((0, 0), (size, size + 1))
-            .copy_from(&derivatives);
+            .copy_from(&balance.derivatives);
         let [by_omega, by_ratio] = [[VARIED * omega, 0.0], [0.0, VARIED]];
         for (column, [omega_change, ratio_change]) in [(size, by_omega), (size + 1, by_ratio)] {
             let step = omega_change + ratio_change;
             let next = problem.linear(omega + omega_change, ratio + ratio_change, &loads)?;
-            if column == size + 1 {
-                let change =
-                    (problem.residual(&next, motion) - problem.residual(&linear, motion)) / step;
-                matrix.view_mut((0, column), (size, 1)).copy_from(&change);
-            }
+            let mut own = matrix.view_mut((0, column), (size, 1));
+            own += problem.by_change([&linear, &next], motion, step);
             let change = ((output(&next)? * &r)[(0, 0)] - y) / step;
             matrix[(size, column)] = change.re / amplitude;
             matrix[(size + 1, column)] = change.im / amplitude;

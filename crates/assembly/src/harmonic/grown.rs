@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Balance;
 use super::follow::{Curve, follow, point};
 use super::forced::Forced;
 
@@ -40,8 +41,12 @@ impl Curve for Grown<'_, '_, '_> {
         let problem = self.forced.problem;
         let (motion, share) = unknowns.as_slice().split_at(problem.size());
         let own = self.forced.at_load(*share.first()?);
-        let (residual, mut derivatives, _) =
-            problem.balance(motion, self.omega, 0.0, &own.loads)?;
+        let linear = problem.linear(self.omega, 0.0, &own.loads)?;
+        let Balance {
+            residual,
+            mut derivatives,
+            ..
+        } = problem.balance(&linear, motion, self.omega);
         // the loads come in as Z r + f − p: what is left without a motion is −p
         let rest = vec![0.0; problem.size()];
         let whole = problem.linear(self.omega, 0.0, &self.forced.loads)?;

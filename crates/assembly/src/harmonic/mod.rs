@@ -169,6 +169,16 @@ struct Linear {
     at: Vec<Dynamic>,
 }
 
+/// What a motion leaves.
+struct Balance {
+    /// Z r + f − p.
+    residual: DVector<f64>,
+    /// Its derivatives by the motion and ω.
+    derivatives: DMatrix<f64>,
+    /// f, as the motion stands.
+    forces: Vec<f64>,
+}
+
 impl<'m> Problem<'m> {
     fn of(model: &'m AssemblyModel, highest_harmonic: usize) -> Result<Self, AssemblyError> {
         let condensed = Condensed::of(model)?;
@@ -231,22 +241,17 @@ impl<'m> Problem<'m> {
         residual
     }
 
-    /// Residuals Z r + f − p, and their derivatives by the motion and ω, the last column; `loads` of the fundamental.
-    fn balance(
-        &self,
-        motion: &[f64],
-        omega: f64,
-        ratio: f64,
-        loads: &DVector<Complex64>,
-    ) -> Option<(DVector<f64>, DMatrix<f64>, Vec<f64>)> {
-        let linear = self.linear(omega, ratio, loads)?;
+    /// Derivative of [`Problem::residual`] by what is `change` more in `next`.
+    fn by_change(&self, [linear, next]: [&Linear; 2], motion: &[f64], change: f64) -> DVector<f64> {
+        (self.residual(next, motion) - self.residual(linear, motion)) / change
+    }
+
+    /// The balance of what is linear at ω (rad/s) with the laws' forces. The last column of its derivatives has those of these forces
+    /// alone.
+    fn balance(&self, linear: &Linear, motion: &[f64], omega: f64) -> Balance {
         let size = self.size();
-        let mut residual = self.residual(&linear, motion);
-        let change = VARIED * omega;
-        let next = self.linear(omega + change, ratio, loads)?;
+        let mut residual = self.residual(linear, motion);
         let mut derivatives = DMatrix::zeros(size, size + 1);
-        let by_omega = (self.residual(&next, motion) - &residual) / change;
-        derivatives.column_mut(size).copy_from(&by_omega);
         for (harmonic, own) in linear.at.iter().enumerate() {
             for i in 0..self.condensed.laws.len() {
                 for j in 0..self.condensed.laws.len() {
@@ -274,7 +279,11 @@ impl<'m> Problem<'m> {
                 }
             }
         }
-        Some((residual, derivatives, forces))
+        Balance {
+            residual,
+            derivatives,
+            forces,
+        }
     }
 
     /// Motion of the outputs at a harmonic.

@@ -1,4 +1,6 @@
-//! `check`: is a joint file or an FMU what it should be?
+//! `check`: is a joint file, an FMU or a system of FMUs what it should be?
+
+mod system;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -31,7 +33,7 @@ use super::table::number;
 /// `check`
 #[derive(Debug, Args)]
 pub(super) struct CheckArguments {
-    /// Joint file, assembly file or FMU
+    /// Joint file, assembly file, FMU or SSP
     file: PathBuf,
     /// Only look into the FMU: run none of its code. Without this its library is run, in a process of its own
     #[arg(long)]
@@ -73,20 +75,9 @@ struct Report {
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
     let path = &arguments.file;
-    if FileKind::of(path) == FileKind::Ssp {
-        return Err(CliError::Kind {
-            path: path.to_owned(),
-            found: FileKind::Ssp.to_string(),
-            expected: "a joint file (JSON), an assembly file (TOML) or an FMU",
-            instead: format!(
-                "unzip it and check the FMUs of its folder `resources` one by one; `bolted-joint show {}` tells how they are connected",
-                path.display()
-            ),
-        });
-    }
     let kind = expect(
         path,
-        "a joint file (JSON), an assembly file (TOML) or an FMU",
+        "a joint file (JSON), an assembly file (TOML), an FMU or an SSP",
         |kind| {
             matches!(
                 kind,
@@ -96,14 +87,13 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<(), CliError> {
                     | FileKind::Assembly
                     | FileKind::Fmu
                     | FileKind::OtherZip
+                    | FileKind::Ssp
             )
         },
     )?;
     let report = match kind {
-        FileKind::Fmu | FileKind::OtherZip => match inspect_assembly(path)? {
-            Some(inspection) => assembly(path, &inspection, arguments)?,
-            None => fmu(path, arguments)?,
-        },
+        FileKind::Fmu | FileKind::OtherZip => any_fmu(path, arguments)?,
+        FileKind::Ssp => system::report(path, arguments)?,
         FileKind::Assembly => assembly_file(path, arguments)?,
         _ => joint_file(path, arguments)?,
     };
@@ -290,6 +280,14 @@ fn lap_fact<const D: usize>(joints: &[JointFile]) -> String {
             number(step_s, 3)
         ),
         None => "as lap: nothing moves by itself".to_owned(),
+    }
+}
+
+/// The FMU of an assembly, or of a joint.
+fn any_fmu(path: &Path, arguments: &CheckArguments) -> Result<Report, CliError> {
+    match inspect_assembly(path)? {
+        Some(inspection) => assembly(path, &inspection, arguments),
+        None => fmu(path, arguments),
     }
 }
 

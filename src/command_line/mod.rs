@@ -86,7 +86,7 @@ enum Command {
     Compare(CompareArguments),
     /// Write a joint for Nastran, Abaqus, CalculiX, ANSYS, MATLAB or Modelica
     Convert(ConvertArguments),
-    /// Check a joint file, an assembly file or an FMU, and run the FMU's library for a moment
+    /// Check a joint file, an assembly file, an FMU or a system of FMUs (SSP), and run the FMUs' libraries for a moment
     Check(CheckArguments),
     /// Run the library of an FMU for `check`, in a process of its own
     #[command(name = check::RUN_LIBRARY, hide = true)]

@@ -160,7 +160,7 @@ fn what_is_no_fmu_is_said_to_be_none() {
     bench.write("picture.png", PNG);
     bench.refused("check picture.png", &["picture.png: found bytes that are no text", "expected a joint file"]);
     for name in ["missing.fmu", "missing.toml", "missing"] {
-        let expected = "give the path of a joint file (JSON), an assembly file (TOML) or an FMU";
+        let expected = "give the path of a joint file (JSON), an assembly file (TOML), an FMU or an SSP";
         bench.refused(
             &format!("check {name}"),
             &[&format!("{name}: cannot be read"), expected],

@@ -38,6 +38,7 @@ mod rig;
 mod show;
 mod slips;
 mod study;
+mod systems;
 mod table_file;
 mod torque;
 mod universal_file;

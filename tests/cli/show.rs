@@ -310,13 +310,6 @@ fn tables_and_systems_are_told_by_what_is_in_them() {
         &bench.done("show o.ssp").stdout,
         &["o.ssp: system of FMUs (SSP)", "resources/", "nominal.ssv"],
     );
-    bench.refused(
-        "check o.ssp",
-        &[
-            "found a system of FMUs (SSP)",
-            "check the FMUs of its folder `resources`",
-        ],
-    );
 }
 
 #[test]
@@ -413,8 +406,8 @@ fn a_command_that_gets_another_kind_of_file_names_the_right_one() {
     let cases = [
         ("identify README.md -o o.joint.json", "README.md: found a file of an unknown kind, expected a study (TOML); check the path"),
         ("export README.md -o o.fmu", "README.md: found a file of an unknown kind, expected a joint file (JSON) or an assembly file (TOML); check the path"),
-        ("check assembly.uff", "found a universal file, expected a joint file (JSON), an assembly file (TOML) or an FMU; `bolted-joint show assembly.uff` takes it"),
-        ("check study.toml", "found a study of method \"frf-decoupling\", expected a joint file (JSON), an assembly file (TOML) or an FMU; `bolted-joint identify study.toml -o NAME.joint.json` takes it"),
+        ("check assembly.uff", "found a universal file, expected a joint file (JSON), an assembly file (TOML), an FMU or an SSP; `bolted-joint show assembly.uff` takes it"),
+        ("check study.toml", "found a study of method \"frf-decoupling\", expected a joint file (JSON), an assembly file (TOML), an FMU or an SSP; `bolted-joint identify study.toml -o NAME.joint.json` takes it"),
         ("check a-modes.toml", "found modes of a structure"),
         ("check .", "found a folder"),
         ("export study.toml -o o.fmu", "found a study of method"),

@@ -260,12 +260,11 @@ pub fn command_for(kind: FileKind, path: &Path) -> Option<String> {
         FileKind::Draws => Some(format!(
             "bolted-joint merge STUDY.toml {path} ... -o NAME.joint.json"
         )),
-        FileKind::Fmu => Some(format!("bolted-joint check {path}")),
+        FileKind::Fmu | FileKind::Ssp => Some(format!("bolted-joint check {path}")),
         FileKind::Functions(_)
         | FileKind::Table(_)
         | FileKind::Matrices
         | FileKind::Modes
-        | FileKind::Ssp
         | FileKind::Study(None) => Some(format!("bolted-joint show {path}")),
         FileKind::OtherJson
         | FileKind::List

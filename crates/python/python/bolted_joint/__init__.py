@@ -10,7 +10,7 @@ The functions here do what the command line ``bolted-joint`` does, in the same w
 `draw`             some of the draws of a bootstrap or a Monte Carlo simulation
 `merge`            all of them together
 `export`           a joint, or an assembly, becomes an FMU
-`check`            is a joint file or an FMU what it should be
+`check`            is a joint file, an FMU or an SSP what it should be
 `show`             what is in a file
 `compare`          joints beside each other
 `convert`          a joint for Nastran, Abaqus, CalculiX, ANSYS, MATLAB or Modelica

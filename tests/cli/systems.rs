@@ -62,7 +62,7 @@ fn a_sound_system_is_said_to_be_sound() {
         let outcome = bench.done(&format!("check {system}"));
         let expected = [
             "system of FMUs (SSP)",
-            "3 components with ",
+            "components: a (resources/a.fmu), b (resources/b.fmu), lap (resources/lap.fmu)",
             "a: run: ",
             "lap: run: loads: those of resources/joint.json",
             "`check` of the assembly file",
@@ -143,4 +143,47 @@ fn what_is_wrong_with_an_fmu_is_found_within_its_system() {
         &outcome.stderr,
         &["connector push.F of b: resources/a.fmu has no variable of that name"],
     );
+}
+
+/// With what other tools write: systems within systems, empty elements, start values of the system's own connectors.
+#[test]
+fn a_system_of_another_tool_is_read() {
+    let bench = bench();
+    let text = r#"<s:SystemStructureDescription xmlns:s="http://ssp-standard.org/SSP1/SystemStructureDescription" version="1.0" name="other">
+  <s:System name="root"><s:Connectors><s:Connector name="C1" kind="input"/><s:Connector name="C3" kind="parameter"/></s:Connectors>
+    <s:ParameterBindings><s:ParameterBinding source="./resources/nominal.ssv"/><s:ParameterBinding source="own.ssv" sourceBase="component"/>
+    </s:ParameterBindings>
+    <s:Elements><s:System name="inner"><s:Connectors><s:Connector name="u" kind="input"/><s:Connector name="k" kind="parameter"/>
+    </s:Connectors></s:System></s:Elements>
+    <s:Connections><s:Connection startElement="" startConnector="C1" endElement="inner" endConnector="u"/>
+      <s:Connection startConnector="C3" endElement="inner" endConnector="k"/></s:Connections></s:System></s:SystemStructureDescription>"#;
+    let values = r#"<v:ParameterSet xmlns:v="http://ssp-standard.org/SSP1/SystemStructureParameterValues" version="1.0" name="own">
+  <v:Parameters><v:Parameter name="C1"><v:Real value="20"/></v:Parameter></v:Parameters></v:ParameterSet>"#;
+    for (start_values, finding) in [
+        (Some(values), None),
+        (None, Some("resources/nominal.ssv: not found")),
+    ] {
+        repacked(&bench, "beams.ssp", "edited.ssp", |name, _| match name {
+            "SystemStructure.ssd" => Some(text.into()),
+            "resources/nominal.ssv" => start_values.map(Into::into),
+            _ => None,
+        });
+        match finding {
+            Some(finding) => {
+                bench.fails("check edited.ssp", &[finding]);
+            }
+            None => {
+                let outcome = bench.done("check edited.ssp");
+                has(
+                    &outcome.stdout,
+                    &["components: inner", "inputs: C1", "no problem found"],
+                );
+                assert!(
+                    !outcome.stdout.contains("assembly file"),
+                    "{}",
+                    outcome.stdout
+                );
+            }
+        }
+    }
 }

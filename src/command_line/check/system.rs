@@ -19,19 +19,19 @@ pub(super) fn report(path: &Path, arguments: &CheckArguments) -> Result<Report, 
         kind: "system of FMUs (SSP)".to_owned(),
         facts: vec![
             format!("name: {}", found.name),
-            format!(
-                "{} components with {} connections, {} inputs and {} outputs of the system",
-                found.components.len(),
-                found.connections,
-                found.inputs.len(),
-                found.outputs.len()
-            ),
+            format!("components: {}", found.components.join(", ")),
+            format!("connections: {}", found.connections),
         ],
         reasons_against: Vec::new(),
         findings: unpacked.findings.clone(),
         messages: Vec::new(),
         details: Map::new(),
     };
+    for (label, names) in [("inputs", &found.inputs), ("outputs", &found.outputs)] {
+        if !names.is_empty() {
+            report.facts.push(format!("{label}: {}", names.join(", ")));
+        }
+    }
     if !unpacked.loose_inputs.is_empty() {
         report.facts.push(format!(
             "inputs without a connection, which keep their start values: {}",
@@ -67,9 +67,12 @@ pub(super) fn report(path: &Path, arguments: &CheckArguments) -> Result<Report, 
         report.reasons_against.extend(against.map(named));
         details.insert(names.clone(), Value::Object(own.details));
     }
-    report.facts.push(
+    let tool = found.tool.as_deref().unwrap_or_default();
+    if tool.starts_with("bolted-joint") {
+        report.facts.push(
         "communication step: `check` of the assembly file tells how long one of explicit coupling may be".to_owned(),
     );
+    }
     report
         .details
         .insert("components".to_owned(), Value::Object(details));

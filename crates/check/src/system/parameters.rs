@@ -47,6 +47,10 @@ impl Bound<'_> {
         for parameter in children(child(root, "Parameters")) {
             let own = text(parameter, "name").unwrap_or_default();
             let name = format!("{prefix}{own}");
+            let is_of_the_system = structure.connectors.iter().any(|own| own.name == name);
+            if self.component.is_none() && is_of_the_system {
+                continue;
+            }
             let Some((component, name)) = self.split(&name, structure) else {
                 findings.push(format!(
                     "{source}: found parameter {own}, expected the name of a component before it"

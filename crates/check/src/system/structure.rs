@@ -1,4 +1,4 @@
-//! What a system of FMUs says of itself: its components with their connectors, and what connects them (SSP 1.0, 5).
+//! What a system of FMUs says of itself: its components with their connectors, and what connects them.
 
 use roxmltree::{Document, Node};
 
@@ -17,7 +17,7 @@ pub(super) struct Structure {
     pub(super) bindings: Vec<Binding>,
 }
 
-/// What stands within a system under a name.
+/// What stands within a system under a name: an FMU, another system, a dictionary of signals.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Component {
     pub(super) name: String,
@@ -53,7 +53,7 @@ pub(super) struct End {
 /// Where start values come from.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Binding {
-    /// Path of a file of parameters in the archive; none where they stand in the description.
+    /// Path of a file of parameters in the archive; none where they stand in the description, or in a component's file.
     pub(super) source: Option<String>,
     /// What is put in front of their names.
     pub(super) prefix: String,
@@ -72,10 +72,7 @@ impl Structure {
         Some(Self {
             name: text(root, "name")?,
             tool: text(root, "generationTool"),
-            components: elements
-                .filter(|own| matches!(own.tag_name().name(), "Component" | "System"))
-                .map(component)
-                .collect(),
+            components: elements.map(component).collect(),
             connectors: connectors(system),
             connections: connections
                 .filter(|own| own.tag_name().name() == "Connection")
@@ -93,7 +90,7 @@ impl Structure {
 fn component(own: Node<'_, '_>) -> Component {
     Component {
         name: text(own, "name").unwrap_or_default(),
-        source: text(own, "source"),
+        source: source(own),
         connectors: connectors(own),
         bindings: bindings(own),
     }
@@ -112,7 +109,8 @@ fn connectors(of: Node<'_, '_>) -> Vec<Connector> {
 
 fn connection(own: Node<'_, '_>) -> Connection {
     let end = |element: &str, connector: &str| End {
-        element: text(own, element),
+        // some tools write an empty one for the system
+        element: text(own, element).filter(|name| !name.is_empty()),
         connector: text(own, connector).unwrap_or_default(),
     };
     Connection {
@@ -124,11 +122,17 @@ fn connection(own: Node<'_, '_>) -> Connection {
 fn bindings(of: Node<'_, '_>) -> Vec<Binding> {
     let all = children(child(of, "ParameterBindings"));
     all.map(|own| Binding {
-        source: text(own, "source"),
+        source: source(own).filter(|_| own.attribute("sourceBase") != Some("component")),
         prefix: text(own, "prefix").unwrap_or_default(),
         is_mapped: child(own, "ParameterMapping").is_some(),
     })
     .collect()
+}
+
+/// A path in the archive.
+fn source(of: Node<'_, '_>) -> Option<String> {
+    let path = of.attribute("source")?;
+    Some(path.strip_prefix("./").unwrap_or(path).to_owned())
 }
 
 /// The first child of this name, in whichever namespace.
@@ -156,7 +160,7 @@ mod tests {
         let xml = r#"<d:SystemStructureDescription xmlns:d="http://ssp-standard.org/SSP1/SystemStructureDescription" xmlns:c="http://ssp-standard.org/SSP1/SystemStructureCommon" version="1.0" name="two">
             <d:System name="s"><d:Connectors><d:Connector name="push" kind="input"><c:Real unit="N"/></d:Connector></d:Connectors>
             <d:Elements><d:Component name="a" source="resources/a.fmu"><d:Connectors><d:Connector name="x" kind="output"/></d:Connectors>
-            </d:Component></d:Elements><d:Connections><d:Connection startConnector="push" endElement="a" endConnector="F"/></d:Connections>
+            </d:Component></d:Elements><d:Connections><d:Connection startElement="" startConnector="push" endElement="a" endConnector="F"/></d:Connections>
             </d:System></d:SystemStructureDescription>"#;
         let found = Structure::of(xml).unwrap();
         let [a] = &found.components[..] else {

@@ -22,18 +22,19 @@ pub(super) fn findings(structure: &Structure, models: &Models) -> Vec<String> {
         let wire = format!("{FILE}: connection from {} to {}", told(start), told(end));
         let ends = [(start, true), (end, false)].map(|(own, is_start)| {
             let found = connector(structure, own);
-            let wanted = kind_of(own, is_start);
+            let wanted = kinds_of(own, is_start);
             match found {
                 None => findings.push(format!(
                     "{wire}: found no connector {}, expected one of {}",
                     told(own),
                     place(structure, own)
                 )),
-                Some(found) if found.kind != wanted && found.kind != "inout" => {
+                Some(found) if !wanted.contains(&found.kind.as_str()) => {
                     findings.push(format!(
-                        "{wire}: found {} as {}, expected it as {wanted}",
+                        "{wire}: found {} as {}, expected it as {}",
                         told(own),
-                        found.kind
+                        found.kind,
+                        wanted[0]
                     ));
                 }
                 Some(_) => {}
@@ -45,7 +46,7 @@ pub(super) fn findings(structure: &Structure, models: &Models) -> Vec<String> {
             && given != taken
         {
             findings.push(format!(
-                "{wire}: found {given} at its start and {taken} at its end, expected the same unit"
+                "{wire}: found {given} at its start and {taken} at its end, expected the same unit: not every importer converts"
             ));
         }
         let key = (end.element.as_deref(), end.connector.as_str());
@@ -105,11 +106,11 @@ fn against_model(component: &Component, model: &Described) -> Vec<String> {
     findings
 }
 
-/// What an end of a connection has to be: within the system its inputs give, and its outputs take.
-fn kind_of(end: &End, is_start: bool) -> &'static str {
+/// What an end of a connection may be: within the system its inputs give, and its outputs take.
+fn kinds_of(end: &End, is_start: bool) -> [&'static str; 3] {
     match is_start == end.element.is_some() {
-        true => "output",
-        false => "input",
+        true => ["output", "calculatedParameter", "inout"],
+        false => ["input", "parameter", "inout"],
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use bolted_joint::check::{foreign, unpack_system};
 use serde_json::{Map, Value};
 
-use super::{CheckArguments, Report, any_fmu};
+use super::{CheckArguments, Report, fmus};
 use crate::command_line::error::CliError;
 
 /// A system of FMUs: how they fit each other, and each by itself.
@@ -48,7 +48,7 @@ pub(super) fn report(path: &Path, arguments: &CheckArguments) -> Result<Report, 
             ));
             continue;
         }
-        let own = match any_fmu(&fmu.path, arguments) {
+        let own = match fmus::report(&fmu.path, arguments) {
             Ok(own) => own,
             Err(refused) => {
                 // not where it has been unpacked

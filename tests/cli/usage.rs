@@ -41,7 +41,7 @@ fn help_says_what_each_command_needs() {
         ("demo --help", &["--output", "--seed", "--noise"]),
         ("identify --help", &["<STUDY>", "TOML", "--output", "--figure", "--json"]),
         ("export --help", &["<JOINT_FILE>", "--output", "element", "lap", "--step-size-max", "--platforms", "--allow-active"]),
-        ("check --help", &["<FILE>", "Joint file, assembly file or FMU", "--json"]),
+        ("check --help", &["<FILE>", "Joint file, assembly file, FMU or SSP", "--json"]),
     ];
     for (arguments, fragments) in cases {
         let outcome = bench.done(arguments);

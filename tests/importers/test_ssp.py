@@ -128,6 +128,85 @@ def test_ecos_runs_it_as_the_one_fmu(run, whole):
     assert np.abs(found[0] / found[1] - 2).max() < 0.1, found
 
 
+def over_preload(folder, preload=""):
+    """The small assembly with a joint that softens as its bolt loosens, and the FMU of the whole."""
+    path = small.write(folder, {})
+    table = {
+        "preload": [4.0, 8.0, 12.0], "nominal": 12.0, "stiffness": [[[1e5]], [[2e5]], [[4e5]]], "damping": [[[20.0]]] * 3,
+    }
+    file = {"format": "bolted-joint/1", "name": "lap", "joint": {"dofs": ["y"], "over_preload": table}}
+    (folder / "lap.joint.json").write_text(json.dumps(file))
+    path.write_text(path.read_text().replace('file = "lap.joint.json"', f'file = "lap.joint.json"\n{preload}'))
+    return path
+
+
+def test_fmpy_starts_at_the_preload_of_a_parameter_set(run, tmp_path):
+    path = over_preload(tmp_path)
+    run("export", path, "-o", tmp_path / "small.fmu", "--fmi", "2")
+    ssp = system(run, path, "moving.ssp")
+    assert run("check", ssp).returncode == 0
+    nominal = read_ssv(str(ssp), "resources/nominal.ssv")
+    (preload,) = [own for own in nominal.parameters if own.name == "lap.preload"]
+    assert float(preload.value) == 12.0
+    for preload_n_m in (12.0, 6.0):
+        preload.value = preload_n_m
+        result = fmpy.simulate_fmu(
+            str(tmp_path / "small.fmu"), stop_time=STOP_S, output_interval=1e-5, fmi_type="CoSimulation",
+            start_values={"push.F": LOAD_N, "lap.preload": preload_n_m},
+        )
+        errors = []
+        for step in [4e-6, 2e-6]:
+            rows = simulate_ssp(
+                str(ssp), stop_time=STOP_S, step_size=step, input={"push.F": lambda time: LOAD_N}, parameter_set=nominal
+            )
+            errors.append(off(rows["time"][:-1] + step, rows["tip.y"][1:], result, "tip.y"))
+        assert errors[1] < 0.02 and abs(errors[0] / errors[1] - 2) < 0.1, (preload_n_m, errors)
+
+
+def test_ecos_moves_a_preload_as_in_the_one_fmu(run, tmp_path):
+    ecospy = pytest.importorskip("ecospy", exc_type=(ImportError, OSError))
+    path = over_preload(tmp_path)
+    loosening = lambda time: 12.0 - 6.0 * time / STOP_S  # noqa: E731
+    run("export", path, "-o", tmp_path / "small.fmu", "--fmi", "2")
+    times = np.linspace(0, STOP_S, 2001)
+    course = [(time, LOAD_N, loosening(time)) for time in times]
+    result = fmpy.simulate_fmu(
+        str(tmp_path / "small.fmu"), stop_time=STOP_S, output_interval=times[1], fmi_type="CoSimulation",
+        input=np.array(course, dtype=[("time", float), ("push.F", float), ("lap.preload", float)]),
+    )
+    stays = fmpy.simulate_fmu(
+        str(tmp_path / "small.fmu"), stop_time=STOP_S, output_interval=times[1], start_values={"push.F": LOAD_N},
+        fmi_type="CoSimulation",
+    )
+    assert off(stays["time"], stays["tip.y"], result, "tip.y") > 0.1
+    ssp = system(run, path, "ecos.ssp", "--ssp-for", "ecos")
+    errors = []
+    for step in [4e-6, 2e-6]:
+        with ecospy.EcosSimulation(ssp_path=str(ssp), step_size=step) as simulation:
+            simulation.set_real("b::push.F", LOAD_N)
+            assert simulation.init(parameter_set="nominal")
+            rows = []
+            for count in range(round(STOP_S / step)):
+                simulation.set_real("lap::preload", loosening(step * count))
+                simulation.step()
+                rows.append(simulation.get_real("b::tip.y"))
+            simulation.terminate()
+        errors.append(off(step * np.arange(1, len(rows) + 1), np.array(rows), result, "tip.y"))
+    assert errors[1] < 0.02 and abs(errors[0] / errors[1] - 2) < 0.1, errors
+
+
+def test_at_one_preload_there_are_parameters_instead(run, tmp_path):
+    at_one = values(system(run, over_preload(tmp_path, "preload = 8.0"), "one.ssp"), "nominal")
+    assert at_one["lap.joint.k_yy"] == 2e5 and "lap.preload" not in at_one
+    moving = values(system(run, over_preload(tmp_path), "moving.ssp", "--extrapolate"), "nominal")
+    assert moving == {"lap.preload": 12.0}
+    done = run("export", tmp_path / "small.toml", "-o", tmp_path / "x.ssp", "--extrapolate", "--draws", 3, expect=1)
+    assert "--extrapolate" in done.stderr and "at one preload each" in done.stderr
+    over_preload(tmp_path, "preload = 8.0")
+    done = run("export", tmp_path / "small.toml", "-o", tmp_path / "x.ssp", "--extrapolate", expect=1)
+    assert "leave --extrapolate out" in done.stderr
+
+
 def values(ssp, name):
     return {own.name: float(own.value) for own in read_ssv(str(ssp), f"resources/{name}.ssv").parameters}
 

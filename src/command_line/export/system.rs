@@ -36,8 +36,8 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
             "none: an SSP has several FMUs, which are named after their structures and joints";
         return Err(CliError::option("--model-identifier", "it", expected));
     }
-    if arguments.extrapolate {
-        let expected = "none: the joints of an SSP are taken at one preload each";
+    if arguments.extrapolate && arguments.draws > 0 {
+        let expected = "none with --draws, where joints are taken at one preload each";
         return Err(CliError::option("--extrapolate", "it", expected));
     }
     let text = StudyText::read(&arguments.joint_file)?;
@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
             version: arguments.fmi.map_or(FmiVersion::V2, Into::into),
             model_identifier: None,
             platforms: arguments.platforms.clone().or_else(platforms),
-            extrapolate: false,
+            extrapolate: arguments.extrapolate,
             allow_active: arguments.allow_active,
             allow_unusable: arguments.unusable,
             date: Timestamp::from_environment()?,

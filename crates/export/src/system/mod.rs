@@ -44,6 +44,13 @@ pub struct SystemOptions {
     pub seed: u64,
 }
 
+impl SystemOptions {
+    /// Whether the element of a joint follows the preload. Draws are of K and C, which one that does has not.
+    fn follows(&self, joint: &PlacedJoint) -> bool {
+        self.draws == 0 && joint.over_preload.is_some()
+    }
+}
+
 /// The SSP of an assembly, and what is in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportedSystem {
@@ -73,6 +80,13 @@ pub fn assembly_system(
     source_toml: &str,
     options: &SystemOptions,
 ) -> Result<ExportedSystem, ExportError> {
+    if options.parts.extrapolate && !model.joints.iter().any(|own| options.follows(own)) {
+        return Err(ExportError::NothingToExtrapolate);
+    }
+    let of_structures = AssemblyOptions {
+        extrapolate: false,
+        ..options.parts.clone()
+    };
     let parts = Parts::of(model)?;
     let draws = Draws::of(model, options)?;
     let date = options.parts.date;
@@ -80,14 +94,15 @@ pub fn assembly_system(
     let mut components = Vec::new();
     let mut stop_s: f64 = 0.0;
     for part in &parts.structures {
-        let exported = assembly_fmu(&part.model, source_toml, &options.parts)?;
+        let exported = assembly_fmu(&part.model, source_toml, &of_structures)?;
         stop_s = stop_s.max(exported.suggested_stop_s);
         files.push(fmu_file(&part.name, exported.packed.bytes()));
         components.push(Component::structure(part, options.dialect));
     }
     let mut nominal = Vec::new();
     for joint in &model.joints {
-        let exported = element(joint, &options.parts)?;
+        let follows = options.follows(joint);
+        let exported = element(joint, follows, &options.parts)?;
         files.push(fmu_file(&joint.name, exported.bytes()));
         components.push(Component::joint(joint));
         let named = exported.parameters.into_iter();
@@ -135,16 +150,21 @@ fn fmu_path(name: &str) -> String {
     format!("resources/{name}.fmu")
 }
 
-/// The element FMU of a joint.
-fn element(joint: &PlacedJoint, options: &AssemblyOptions) -> Result<Exported, ExportError> {
-    let source = joint
-        .file
+/// The element FMU of a joint, over the preload or at one. No connector of the system leads to the preload: masters that know no start
+/// values of connectors would begin with one of zero.
+fn element(
+    joint: &PlacedJoint,
+    follows: bool,
+    options: &AssemblyOptions,
+) -> Result<Exported, ExportError> {
+    let file = if follows { joint.whole() } else { &joint.file };
+    let source = file
         .to_json()
         .map_err(|_| bolted_joint_joint::LawError::Invalid {
-            problems: joint.file.validate(),
+            problems: file.validate(),
         })?;
     fmu_bytes(
-        &joint.file,
+        file,
         &source,
         &ExportOptions {
             interface: Interface::Element,
@@ -153,7 +173,7 @@ fn element(joint: &PlacedJoint, options: &AssemblyOptions) -> Result<Exported, E
             step: StepWish::Accurate,
             platforms: options.platforms.clone(),
             preload_n_m: None,
-            extrapolate: false,
+            extrapolate: follows && options.extrapolate,
             allow_active: options.allow_active,
             allow_unusable: options.allow_unusable,
             date: options.date,

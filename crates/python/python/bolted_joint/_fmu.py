@@ -168,7 +168,7 @@ class Checked:
 
 
 def check(what: AJoint | Study | Fmu | str | os.PathLike[str], *, run_library: bool = True) -> Checked:
-    """Checks a joint or an FMU, and runs the FMU's library for a moment in a process of its own.
+    """Checks a joint, an FMU or a system of FMUs (SSP), and runs the FMU's library for a moment in a process of its own.
 
     Parameters
     ----------

@@ -179,7 +179,7 @@ def test_laws_of_a_lap_are_counted(program, tmp_path):
         write(count)
         return seen_by_a_terminal(command)
 
-    _, seen = long_enough(work, [2400, 9600, 38400])
+    _, seen = long_enough(work, [2400, 4800, 9600, 19200])
     found = steps_in(seen, "identifying", "laws")
     assert {count for _, count, _ in found} == {18}
     assert all(left == (done > 0) for done, _, left in found)

@@ -71,6 +71,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
     exported.packed.write(&arguments.output)?;
     warn(&model.warnings);
     note(&model.notes);
+    note(&about_preloads(&exported));
     warn_of_joints(&model);
     warn(&about_draws(&exported));
     if arguments.json {
@@ -79,6 +80,14 @@ pub(super) fn run(arguments: &ExportArguments) -> Result<(), CliError> {
         ))?);
     }
     print(&summary(&exported, arguments))
+}
+
+/// Which elements follow a preload that is theirs to set.
+fn about_preloads(exported: &ExportedSystem) -> Vec<String> {
+    let told = exported.following.iter().map(|(joint, nominal_n_m)| {
+        format!("joint {joint}: its FMU follows the preload, the input `preload`, which starts with {nominal_n_m} N·m")
+    });
+    told.collect()
 }
 
 /// What is to be known of the draws.

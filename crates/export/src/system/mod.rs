@@ -64,6 +64,8 @@ pub struct ExportedSystem {
     pub connections: usize,
     /// What was drawn of each joint.
     pub drawn: Vec<DrawnJoint>,
+    /// Joints whose elements follow the preload, and the one that they start with, N·m.
+    pub following: Vec<(String, f64)>,
     /// Its files.
     pub packed: Packed,
 }
@@ -110,6 +112,9 @@ pub fn assembly_system(
     }
     let mut sets = vec![parameter_set::nominal(nominal)];
     sets.extend(draws.sets);
+    let following = model.joints.iter().filter(|own| options.follows(own));
+    let following = following.filter_map(|own| Some((own.name.clone(), own.table()?.nominal)));
+    let following = following.collect();
     let text = ssd::text(&ssd::System {
         name: &model.name,
         components: &components,
@@ -133,6 +138,7 @@ pub fn assembly_system(
         components: components.into_iter().map(|own| own.name).collect(),
         connections,
         drawn: draws.joints,
+        following,
         packed: Packed::of(all, date)?,
     })
 }

@@ -95,9 +95,10 @@ def drive(browser, page, tmp_path):
         if width is not None:
             opened = tmp_path / "frame.html"
             opened.write_text(f'<body style="margin:0"><iframe src="driven.html" style="border:0;width:{width}px;height:800px"></iframe>')
-        # The browser's own time can run out before it has decoded a picture, which takes real time.
-        for _ in range(5):
-            dom = browser(opened, "--allow-file-access-from-files", "--virtual-time-budget=30000", *options, "--dump-dom")
+        # The browser's own time can run out before it has decoded a picture, which takes real time: more of it on a busy machine.
+        for attempt in range(8):
+            budget = f"--virtual-time-budget={30000 << attempt}"
+            dom = browser(opened, "--allow-file-access-from-files", budget, *options, "--dump-dom")
             if '<pre id="result">' in dom:
                 break
         result = dom.split('<pre id="result">')[1].split("</pre>")[0]

@@ -43,7 +43,8 @@ def test_the_plan_is_what_the_estimate_says_of_itself(run, tmp_path, budget):
     """All 42 deviations, with noise so low that the estimate is at the truth."""
     rig = Rig(K, C, sensors=3, impacts=9)
     lines = FREQUENCIES[::4]
-    noise = 1e-6 if "hits" in budget else 1e-4
+    # with less, deviations follow the rounding of the functions
+    noise = 3e-6 if "hits" in budget else 1e-4
     plan_study(rig, tmp_path, lines, FULL, noise, K, C, budget)
     plan = planned(run, tmp_path, "--add", "0")
     rig.write(tmp_path, lines, noise=noise, rng=np.random.default_rng(3), more=budget)

@@ -131,6 +131,18 @@ fn what_is_wrong_with_an_fmu_is_found_within_its_system() {
         &outcome.stderr,
         &["b: resources/b.fmu: found no readable zip archive"],
     );
+    // a damaged archive is told as such, and nothing of what is whole in it is blamed
+    let mut bytes = std::fs::read(bench.path("beams.ssp")).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 0x55;
+    bench.write("damaged.ssp", bytes);
+    let outcome = bench.run("check damaged.ssp --no-run");
+    has(&outcome.stderr, &["found it damaged", "copy or export"]);
+    assert!(
+        !outcome.stderr.contains("cannot be read"),
+        "{}",
+        outcome.stderr
+    );
     // the file of another component stands in
     with_entry(
         &bench,

@@ -52,8 +52,8 @@ pub fn foreign(path: &Path) -> Result<Option<ForeignFmu>, CheckError> {
     Ok(found.filter(|found| !found.tool.as_deref().is_some_and(is_this_program)))
 }
 
-/// Whether the tool that made an FMU is this program, of any version.
-fn is_this_program(tool: &str) -> bool {
+/// Whether the tool that made a file is this program, of any version.
+pub(super) fn is_this_program(tool: &str) -> bool {
     tool.starts_with(THIS_PROGRAM)
 }
 

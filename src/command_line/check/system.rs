@@ -43,9 +43,9 @@ pub(super) fn report(path: &Path, arguments: &CheckArguments) -> Result<Report, 
         let names = fmu.components.join(", ");
         if let Ok(Some(other)) = foreign(&fmu.path) {
             let tool = other.tool.unwrap_or_else(|| "another tool".to_owned());
-            report.facts.push(format!(
-                "{names}: FMU of another tool ({tool}), not looked into but for its variables"
-            ));
+            report
+                .facts
+                .push(format!("{names}: FMU of another tool ({tool}), not run"));
             continue;
         }
         let own = match fmus::report(&fmu.path, arguments) {
@@ -67,8 +67,7 @@ pub(super) fn report(path: &Path, arguments: &CheckArguments) -> Result<Report, 
         report.reasons_against.extend(against.map(named));
         details.insert(names.clone(), Value::Object(own.details));
     }
-    let tool = found.tool.as_deref().unwrap_or_default();
-    if tool.starts_with("bolted-joint") {
+    if found.is_of_this_program() {
         report.facts.push(
         "communication step: `check` of the assembly file tells how long one of explicit coupling may be".to_owned(),
     );

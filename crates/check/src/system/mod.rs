@@ -15,6 +15,7 @@ use tempfile::TempDir;
 use super::CheckError;
 use super::archive::Archive;
 use super::described::{self, Described};
+use super::foreign::is_this_program;
 use parameters::Bound;
 use structure::{Component, FILE, Structure};
 use wiring::Models;
@@ -38,12 +39,20 @@ pub struct SystemInspection {
     pub parameters: Vec<String>,
 }
 
+impl SystemInspection {
+    /// Whether this program made it, of any version.
+    #[must_use]
+    pub fn is_of_this_program(&self) -> bool {
+        self.tool.as_deref().is_some_and(is_this_program)
+    }
+}
+
 /// A system of FMUs whose files stand in a temporary folder as long as this lives.
 #[derive(Debug)]
 pub struct UnpackedSystem {
     /// What it says of itself.
     pub inspection: SystemInspection,
-    /// The FMUs that are there, each once.
+    /// The FMUs that are there, each once; none of a damaged archive.
     pub fmus: Vec<UnpackedFmu>,
     /// Inputs of components that nothing is connected to.
     pub loose_inputs: Vec<String>,
@@ -80,22 +89,22 @@ pub fn inspect_system(path: &Path) -> Result<SystemInspection, CheckError> {
 pub fn unpack_system(path: &Path) -> Result<UnpackedSystem, CheckError> {
     let (mut archive, structure) = read(path)?;
     let mut findings = archive.damage();
+    let is_whole = findings.is_empty();
     let names = archive.names();
     let folder = tempfile::tempdir()?;
-    if findings.is_empty() {
+    if is_whole {
         archive.unpack(folder.path())?;
     }
     let mut fmus: Vec<UnpackedFmu> = Vec::new();
     let mut models = Models::new();
-    let mut known: Vec<&str> = Vec::new();
-    for component in &structure.components {
-        let name = component.name.as_str();
-        if known.contains(&name) {
+    for (place, component) in structure.components.iter().enumerate() {
+        let name = &component.name;
+        let mut before = structure.components[..place].iter();
+        if before.any(|own| own.name == *name) {
             findings.push(format!(
                 "{FILE}: found component {name} twice, expected each name once"
             ));
         }
-        known.push(name);
         let Some(source) = component.source.as_deref().filter(|own| is_fmu(own)) else {
             continue;
         };
@@ -105,16 +114,20 @@ pub fn unpack_system(path: &Path) -> Result<UnpackedSystem, CheckError> {
             ));
             continue;
         }
-        let file = folder.path().join(source);
-        if let Some(model) = model(&file) {
-            models.insert(component.name.clone(), model);
+        if !is_whole {
+            // that it is damaged has been said, and of what is not there no more can be
+            continue;
         }
-        match fmus.iter_mut().find(|known| known.source == source) {
-            Some(known) => known.components.push(component.name.clone()),
+        let path = folder.path().join(source);
+        if let Some(model) = model(&path) {
+            models.insert(name.clone(), model);
+        }
+        match fmus.iter_mut().find(|other| other.source == source) {
+            Some(other) => other.components.push(name.clone()),
             None => fmus.push(UnpackedFmu {
-                components: vec![component.name.clone()],
+                components: vec![name.clone()],
                 source: source.to_owned(),
-                path: file,
+                path,
             }),
         }
     }
